@@ -2,11 +2,13 @@
 """Generates code and tables from the IDL of the records (records.idl in this folder).
 
 usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for DDS, into FOLDER; the build calls it
-       generate.py --fields FOLDER  what people give: <yars/requests.hpp>, tables of fields, defaults, presets, into FOLDER
+       generate.py --fields FOLDER  what people give: <yars/requests.hpp>, tables of fields, defaults, presets, into
+                                    FOLDER
        generate.py --tables FILE    the page of all records, fields and values, in Markdown; needs no build
-       generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h, station/web/src/values.ts,
-                                    and the marked parts of python/yars/session.py, results.pyi and dataset/keys.py; the
-                                    lists of presets in the files that generator/presets.py names
+       generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h,
+                                    station/web/src/values.ts, and the marked parts of python/yars/session.py,
+                                    results.pyi and dataset/keys.py; the lists of presets in the files that
+                                    generator/presets.py names
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
 YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
 segment's containers (`yars status --layout`). A fault in the IDL is reported in one line: file:line, what was expected,
@@ -77,7 +79,8 @@ def with_part(name, text, part, begin=BEGIN, end=END):
     before, found, rest = text.partition(begin)
     _, closed, after = rest.partition(end)
     if not found or not closed:
-        raise StaleError(f"{name}: expected the lines '{begin.strip()}' and '{end.strip()}', found not both; put them back")
+        raise StaleError(f"{name}: expected the lines '{begin.strip()}' and '{end.strip()}', found not both; "
+                         "put them back")
     return before + begin + part + end + after
 
 
@@ -97,7 +100,8 @@ def tree_files(chapters, layout, root):
     stub = text_of(root / STUB)
     requests = idl.read(HERE, "requests.idl")
     for name, part in fields.stubs(requests[-1]).items():
-        stub = with_part(STUB, stub, part, f"        # begin: lib/values/generate.py, {name}\n", f"        # end: {name}\n")
+        stub = with_part(STUB, stub, part, f"        # begin: lib/values/generate.py, {name}\n",
+                         f"        # end: {name}\n")
     made[STUB] = stub
     keys = with_part(KEYS, text_of(root / KEYS), "")
     made[KEYS] = with_part(KEYS, keys, fields.python_values(chapters, requests, keys))
@@ -107,8 +111,8 @@ def tree_files(chapters, layout, root):
     for name in presets.LISTS:
         text = made[name] if name in made else text_of(root / name)
         if not presets.has_list(text, known):
-            raise StaleError(f"{name}: expected a list of the presets {', '.join(known)}, found none; write one, or take the file "
-                             "out of LISTS in generator/presets.py")
+            raise StaleError(f"{name}: expected a list of the presets {', '.join(known)}, found none; write one, or "
+                             "take the file out of LISTS in generator/presets.py")
         made[name] = presets.listed(text, known)
     return {name: (text_of(root / name), text) for name, text in made.items()}
 
@@ -124,7 +128,8 @@ def main(arguments):
     if what == "--build":
         return build(pathlib.Path(where), chapters)
     if what == "--tables":
-        return write_if_changed(pathlib.Path(where), tables.document(chapters, (ROOT / LAYOUT).read_text(encoding="utf-8")))
+        return write_if_changed(pathlib.Path(where),
+                                tables.document(chapters, (ROOT / LAYOUT).read_text(encoding="utf-8")))
     layout = layout_of(where, chapters)
     files = tree_files(chapters, layout, ROOT)
     stability.check(*files[LAYOUT])

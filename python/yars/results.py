@@ -5,11 +5,11 @@
                       range_nm=20, seed=1)
     scan.power, scan.units["power"], scan.to_xarray()
 
-Arguments are the fields of ScanRequest and PatchRequest of the C++ library, which has the limits. The arrays are bit for bit
-those of the commands `yars scan` and `yars patch`, and `hash` is the hash that they print. Arrays cannot be written: copy them first.
-Errors: TypeError and ValueError for arguments, yars.Error for files. Errors of the library have the attributes code, field,
-expected, found, action, low and high. Problems of single files are
-warnings. While a picture is computed other threads of Python run.
+Arguments are the fields of ScanRequest and PatchRequest of the C++ library, which has the limits. The arrays are bit
+for bit those of the commands `yars scan` and `yars patch`, and `hash` is the hash that they print. Arrays cannot be
+written: copy them first. Errors: TypeError and ValueError for arguments, yars.Error for files. Errors of the library
+have the attributes code, field, expected, found, action, low and high. Problems of single files are warnings. While a
+picture is computed other threads of Python run.
 """
 import functools
 import json
@@ -20,7 +20,8 @@ import numpy
 
 from . import Error, _core, _require
 from ._core import MOVER, PATCH_ORDER
-from .arguments import Held, Options, Request, Said, absolute, instance, kind_error, number, path, plain, several, shown, text, truth, whole
+from .arguments import (Held, Options, Request, Said, absolute, instance, kind_error, number, path, plain, several,
+                        shown, text, truth, whole)
 from .places import Scene, Terrain
 from .recordings import Recording
 
@@ -28,11 +29,11 @@ __all__ = ["Radar", "Scan", "Patch", "Terrain", "Scene", "Recording", "trade", "
 
 # Unit of each array; "1": a ratio; "": none. Meaning of each, for xarray and help.
 UNITS = {"power": "1", "video": "", "shadow": "", "layover": "", "object": "", "material": "", "height": "m",
-         "grazing_angle": "degree", "slant_range": "m", "ground_range": "m", "latitude": "degree", "longitude": "degree",
-         "azimuth": "degree", "sample": "", "x": "m", "y": "m"}
+         "grazing_angle": "degree", "slant_range": "m", "ground_range": "m", "latitude": "degree",
+         "longitude": "degree", "azimuth": "degree", "sample": "", "x": "m", "y": "m"}
 MEANINGS = {
-    "power": "received power before noise and azimuth smear, full scale 1 (scan); gamma of level ground with equal return, "
-             "before speckle and noise, NaN in the blind zone (patch)",
+    "power": "received power before noise and azimuth smear, full scale 1 (scan); gamma of level ground with equal "
+             "return, before speckle and noise, NaN in the blind zone (patch)",
     "video": "brightness, 0 black to 255 white",
     "shadow": "True: no surface that the radar sees returns here",
     "layover": "True: two or more separate surfaces that the radar sees have this slant range",
@@ -44,7 +45,8 @@ MEANINGS = {
     "ground_range": "over ground from the aircraft",
     "latitude": "WGS84, north positive", "longitude": "WGS84, east positive",
     "azimuth": "true bearing of the sweep's middle", "sample": "number of the sample, from near to far",
-    "x": "from the map's centre, to the right of the line of sight", "y": "from the map's centre, away from the aircraft",
+    "x": "from the map's centre, to the right of the line of sight",
+    "y": "from the map's centre, away from the aircraft",
 }
 ARRAYS = ("power", "video", "shadow", "layover", "slant_range", "ground_range", "latitude", "longitude", "height",
           "grazing_angle", "material", "object")
@@ -72,13 +74,14 @@ class _Picture:
 
     def __init__(self, result):
         if not isinstance(result, (_core.ScanResult, _core.PatchResult)):
-            raise TypeError(f"yars.{type(self).__name__}: expected one that a method of yars.Radar makes, found a call with {shown(result)}")
+            raise TypeError(f"yars.{type(self).__name__}: expected one that a method of yars.Radar makes, found a call "
+                            f"with {shown(result)}")
         self._result = result
 
     def __getattr__(self, name):
         if name == "_result":
-            raise TypeError(f"yars.{type(self).__name__}: expected one that a method of yars.Radar makes, found one of {type(self).__name__} "
-                            "without a result")
+            raise TypeError(f"yars.{type(self).__name__}: expected one that a method of yars.Radar makes, found one of "
+                            f"{type(self).__name__} without a result")
         raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     @property
@@ -90,8 +93,8 @@ class _Picture:
     def hash(self):
         """Hash of the video, as `yars scan` and `yars patch` print it: a number of 64 bits (XXH3).
 
-        Of a scan: of the hashes of its sweeps; each is that of a sweep's record, which has place, settings and video. Of a patch
-        map: of the pixels of its video, row after row.
+        Of a scan: of the hashes of its sweeps; each is that of a sweep's record, which has place, settings and video.
+        Of a patch map: of the pixels of its video, row after row.
         """
         return self._result.hash
 
@@ -103,18 +106,20 @@ class _Picture:
     def to_xarray(self, arrays=ARRAYS):
         """xarray.Dataset of the arrays named, with coordinates, units and meanings. Needs python3-xarray.
 
-        arrays: names, or one name. Latitude, longitude, ranges are coordinates. Attributes are the facts, and the hash as 16
-        hexadecimal digits. to_zarr() and pickle keep all; to_netcdf() needs python3-netcdf4.
+        arrays: names, or one name. Latitude, longitude, ranges are coordinates. Attributes are the facts, and the hash
+        as 16 hexadecimal digits. to_zarr() and pickle keep all; to_netcdf() needs python3-netcdf4.
         """
         xarray = _require("xarray", f"yars.{type(self).__name__}.to_xarray")
         coordinates = {"latitude", "longitude", "slant_range", "ground_range"}
         variables, coords = {}, {}
         names = [arrays] if isinstance(arrays, str) else several(arrays)
         if names is None:
-            raise kind_error(f"yars.{type(self).__name__}.to_xarray: arrays", "the name of an array, or a list of names", arrays)
+            raise kind_error(f"yars.{type(self).__name__}.to_xarray: arrays",
+                             "the name of an array, or a list of names", arrays)
         for name in names:
             if name not in ARRAYS:
-                raise ValueError(f"yars.{type(self).__name__}.to_xarray: arrays: expected {', '.join(ARRAYS)}, found {name!r}")
+                raise ValueError(f"yars.{type(self).__name__}.to_xarray: arrays: expected {', '.join(ARRAYS)}, found "
+                                 f"{name!r}")
             attributes = {"units": UNITS[name], "long_name": MEANINGS[name]}
             (coords if name in coordinates else variables)[name] = (self.axes, getattr(self, name), attributes)
         for axis in self.axes:
@@ -124,11 +129,13 @@ class _Picture:
 
     def __reduce__(self):
         name = f"yars.{type(self).__name__}"
-        raise TypeError(f"{name}: expected an object that can be pickled, found a picture in memory; keep its arrays, or to_xarray()")
+        raise TypeError(f"{name}: expected an object that can be pickled, found a picture in memory; keep its arrays, "
+                        "or to_xarray()")
 
     def __repr__(self):
         shape = " x ".join(str(length) for length in self.video.shape)
-        return f"<yars.{type(self).__name__} {shape} {' x '.join(self.axes)}, {self.facts['fidelity']}, hash {self.hash:016x}>"
+        return (f"<yars.{type(self).__name__} {shape} {' x '.join(self.axes)}, {self.facts['fidelity']}, "
+                f"hash {self.hash:016x}>")
 
 
 class Scan(_Picture):
@@ -148,8 +155,9 @@ class Scan(_Picture):
     def azimuth(self):
         """Array (azimuth,) [degree]: true bearing of each sweep's middle, at the aircraft.
 
-        Ascends without a jump at north: the middle sweep is in [0, 360), and others are below 0 or above 360 where the scan passes
-        north. So data.sel(azimuth=0, method="nearest") of to_xarray() finds the sweep to the north of a scan with heading 0.
+        Ascends without a jump at north: the middle sweep is in [0, 360), and others are below 0 or above 360 where the
+        scan passes north. So data.sel(azimuth=0, method="nearest") of to_xarray() finds the sweep to the north of a
+        scan with heading 0.
         """
         return self._result.array("azimuth")
 
@@ -166,8 +174,8 @@ class Patch(_Picture):
     material and object are those of the surface with the strongest return there.
 
     >>> radar = yars.Radar("draft", map_size=64)
-    >>> patch = radar.patch(yars.Terrain(), latitude_deg=37.5, longitude_deg=-122.5, heading_deg=350, target_latitude_deg=37.62,
-    ...                     target_longitude_deg=-122.4, window_nm=1.3)
+    >>> patch = radar.patch(yars.Terrain(), latitude_deg=37.5, longitude_deg=-122.5, heading_deg=350,
+    ...                     target_latitude_deg=37.62, target_longitude_deg=-122.4, window_nm=1.3)
     >>> patch.video.shape, patch.video.dtype.name
     ((64, 64), 'uint8')
     >>> bool(patch.ground_range[0, 0] > patch.ground_range[-1, 0])  # row 0 is the far edge
@@ -192,9 +200,11 @@ _SCAN = Request("yars.Radar.scan", _core.ScanRequest, _core.ScanRequest_fields)
 _PATCH = Request("yars.Radar.patch", _core.PatchRequest, _core.PatchRequest_fields)
 _THREADS = next([int(end) for end in field[4:]] for field in _core.PatchRequest_fields if field[0] == "threads")
 _TRADE = ("presets", "knob", "base", "ruler", "repeat", "csv", "out", "scene")
-_TRADES = {maps: Options("yars.trade", (*_TRADE, *more), lists=("knob", "scene", "view", "scene_without"), commas=("presets",),
-                         paths=("csv", "out"), optional=("knob", "csv", "out", "scene", "view", "scene_without"))
-           for maps, more in ((False, ("scan_width", "ruler_samples")), (True, ("view", "ruler_size", "scene_without")))}
+_TRADES = {maps: Options("yars.trade", (*_TRADE, *more), lists=("knob", "scene", "view", "scene_without"),
+                         commas=("presets",), paths=("csv", "out"),
+                         optional=("knob", "csv", "out", "scene", "view", "scene_without"))
+           for maps, more in ((False, ("scan_width", "ruler_samples")),
+                              (True, ("view", "ruler_size", "scene_without")))}
 _PRESETS = ("1996", "draft", "standard", "fine", "reference")  # of lib/values/presets.idl
 
 
@@ -225,7 +235,8 @@ def _knob(name, value):
         return text(where, value)
     if hasattr(value, "__index__") and not hasattr(value, "ndim"):
         return float(value.__index__())
-    if isinstance(value, (bytes, complex)) or value is None or not hasattr(value, "__float__") or getattr(value, "ndim", 0):
+    if (isinstance(value, (bytes, complex)) or value is None or not hasattr(value, "__float__") or
+            getattr(value, "ndim", 0)):
         raise kind_error(where, "a number, True, False or a name", value)
     return float(value)
 
@@ -238,8 +249,8 @@ def _check_text_file(file):
     except OSError:
         return  # the reader of GUF says what is wrong
     if other:
-        raise Error(f"yars.Radar: config: expected a text of GUF, found a file of other bytes, {ascii(os.fsdecode(file))}; give a file such as "
-                    "`yars config print` makes")
+        raise Error("yars.Radar: config: expected a text of GUF, found a file of other bytes, "
+                    f"{ascii(os.fsdecode(file))}; give a file such as `yars config print` makes")
 
 
 class Radar(Held):
@@ -247,8 +258,9 @@ class Radar(Held):
 
     preset: 1996, draft, standard, fine or reference; None: that of the file, else standard.
     config: a GUF file, or the name of one that came with YARS, such as apg68.guf; None: the built-in APG-70.
-    settings: GUF text with forms that replace those of the file, such as "( Sea :state 3 )". knobs: slots of the form Fidelity in lower case, such as samples=480, map_size=256,
-    sub_beams=8. Errors: ValueError for a wrong value or name, yars.Error for the file. A Radar can be pickled.
+    settings: GUF text with forms that replace those of the file, such as "( Sea :state 3 )". knobs: slots of the form
+    Fidelity in lower case, such as samples=480, map_size=256, sub_beams=8. Errors: ValueError for a wrong value or
+    name, yars.Error for the file. A Radar can be pickled.
 
     >>> yars.Radar("fine", samples=320).samples
     320
@@ -272,7 +284,8 @@ class Radar(Held):
         settings = text(f"{where}: settings", settings, "GUF text, such as '( Sea :state 3 )'")
         for name in knobs:
             if _knob_name(name) not in _knobs():
-                raise ValueError(f"{where}: expected preset, config, settings or knobs of {', '.join(_knobs())}; found {ascii(name)[:60]}")
+                raise ValueError(f"{where}: expected preset, config, settings or knobs of {', '.join(_knobs())}; found "
+                                 f"{ascii(name)[:60]}")
         knobs = [(_slot(name), _knob(name, value)) for name, value in knobs.items()]
         self._made("" if preset is None else str(preset), config or b"", settings, knobs)
 
@@ -312,8 +325,9 @@ class Radar(Held):
         """One scan of the real beam map, as `yars scan`. Returns a Scan.
 
         terrain: Terrain. scene: Scene on it; None: the scenes in the terrain's folder, and of the configuration.
-        fields: latitude_deg, longitude_deg, altitude_ft [ft MSL], heading_deg (true), range_nm, width_deg, elevation_deg,
-        gain, band A to E, channel, samples, time_s, threads, seed, force (beyond gimbal limits, below ground).
+        fields: latitude_deg, longitude_deg, altitude_ft [ft MSL], heading_deg (true), range_nm, width_deg,
+        elevation_deg, gain, band A to E, channel, samples, time_s, threads, seed, force (beyond gimbal limits, below
+        ground).
         """
         places = self._places("yars.Radar.scan", terrain, scene)
         request = _SCAN.of(fields)
@@ -323,9 +337,9 @@ class Radar(Held):
     def patch(self, terrain, scene=None, **fields):
         """One patch map, as `yars patch`. Returns a Patch.
 
-        terrain, scene: as scan(). fields: latitude_deg, longitude_deg, altitude_ft [ft MSL], heading_deg (true), speed_kt,
-        target_latitude_deg, target_longitude_deg, window_nm, looks, size [pixels], map (number, selects the noise
-        with the seed), time_s, threads, seed, force (beyond the radar's limits).
+        terrain, scene: as scan(). fields: latitude_deg, longitude_deg, altitude_ft [ft MSL], heading_deg (true),
+        speed_kt, target_latitude_deg, target_longitude_deg, window_nm, looks, size [pixels], map (number, selects the
+        noise with the seed), time_s, threads, seed, force (beyond the radar's limits).
         """
         places = self._places("yars.Radar.patch", terrain, scene)
         request = _PATCH.of(fields)
@@ -336,20 +350,20 @@ class Radar(Held):
                 min_pixels=0):
         """Many patch maps in one call. Returns a dict of arrays.
 
-        orders: structured array of dtype PATCH_ORDER, shape (n,). movers: structured array of dtype MOVER; each names its
-        order. arrays: of video, power, shadow, layover, object, material, height, grazing_angle; each has the shape
+        orders: structured array of dtype PATCH_ORDER, shape (n,). movers: structured array of dtype MOVER; each names
+        its order. arrays: of video, power, shadow, layover, object, material, height, grazing_angle; each has the shape
         (n, map_size, map_size). Also: hash (n,) of each video; geo (n,), the place of the pixels on an azimuthal
-        equidistant plane about the aircraft (plane_from_pixel: GDAL's affine, metres east and north) and numbers of each
-        map; boxes, with the footprint of each object in each picture (column, row), its aspect and its pixels; of objects with
-        fewer pixels than min_pixels there are none. The arrays are the caller's own, and can be written. There is no progress: call
-        it in blocks of some hundred orders to show one.
-        Errors: ValueError names the order and the field that is beyond the limits of the options of patch(), or the order that is
-        beyond the radar's; force leaves the radar's limits out.
+        equidistant plane about the aircraft (plane_from_pixel: GDAL's affine, metres east and north) and numbers of
+        each map; boxes, with the footprint of each object in each picture (column, row), its aspect and its pixels; of
+        objects with fewer pixels than min_pixels there are none. The arrays are the caller's own, and can be written.
+        There is no progress: call it in blocks of some hundred orders to show one.
+        Errors: ValueError names the order and the field that is beyond the limits of the options of patch(), or the
+        order that is beyond the radar's; force leaves the radar's limits out.
 
         >>> import numpy
         >>> orders = numpy.zeros(2, yars.PATCH_ORDER)
-        >>> for field, value in dict(latitude=37.5, longitude=-122.5, altitude_ft=12000, heading=350, speed_kt=480, looks=1,
-        ...                          target_latitude=37.62, target_longitude=-122.4, window_nm=1.3).items():
+        >>> for field, value in dict(latitude=37.5, longitude=-122.5, altitude_ft=12000, heading=350, speed_kt=480,
+        ...                          looks=1, target_latitude=37.62, target_longitude=-122.4, window_nm=1.3).items():
         ...     orders[field] = value
         >>> orders["map"] = 1, 2
         >>> maps = yars.Radar("draft", map_size=64).patches(yars.Terrain(), orders)
@@ -360,7 +374,8 @@ class Radar(Held):
         places = self._places(where, terrain, scene)
         for name, rows in (("orders", orders), *((("movers", movers),) if movers is not None else ())):
             if not isinstance(rows, numpy.ndarray):
-                raise kind_error(f"{where}: {name}", f"an array of the type yars.{'PATCH_ORDER' if name == 'orders' else 'MOVER'}", rows)
+                raise kind_error(f"{where}: {name}",
+                                 f"an array of the type yars.{'PATCH_ORDER' if name == 'orders' else 'MOVER'}", rows)
         names = [arrays] if isinstance(arrays, str) else several(arrays)
         if names is None:
             raise kind_error(f"{where}: arrays", "the name of an array, or a list of names", arrays)
@@ -381,16 +396,18 @@ class Radar(Held):
 def trade(terrain=None, radar=None, *, maps=False, **options):
     """Speed against accuracy of presets and knobs, as `yars trade`; with maps=True as `yars trade maps`.
 
-    Returns a dict of the layout of `yars trade --out FILE.json`, which yars.plot.trade_front draws: points, a dict for each
-    candidate with mean, worst, worst_scene and scenes of each column (None: no value); scenes; axes.
-    terrain: Terrain; None: that of the radar's configuration, else the built-in hills. radar: Radar whose configuration is
-    used; its fidelity is not. options: those of the command, such as presets="1996,standard", knob=["samples=120,240"],
-    base, ruler, repeat, scene or view (lists of texts), scan_width, out and csv (files to write).
+    Returns a dict of the layout of `yars trade --out FILE.json`, which yars.plot.trade_front draws: points, a dict for
+    each candidate with mean, worst, worst_scene and scenes of each column (None: no value); scenes; axes.
+    terrain: Terrain; None: that of the radar's configuration, else the built-in hills. radar: Radar whose configuration
+    is used; its fidelity is not. options: those of the command, such as presets="1996,standard",
+    knob=["samples=120,240"], base, ruler, repeat, scene or view (lists of texts), scan_width, out and csv (files to
+    write).
     >>> rows = yars.trade(presets="draft", scene="37,-122,15000,60,10", repeat=1, ruler_samples=60)
     >>> rows["points"][0]["point"], rows["scenes"]
     ('draft', ['37 -122 15000 ft 60 deg 10 NM'])
 
-    Other threads of Python run meanwhile, and make the times larger. Errors: ValueError for options, yars.Error for files.
+    Other threads of Python run meanwhile, and make the times larger. Errors: ValueError for options, yars.Error for
+    files.
     """
     where = "yars.trade"
     instance(f"{where}: terrain", terrain, Terrain, optional=True)

@@ -123,7 +123,8 @@ class Radar(Held):
         window_nm: float | None = ...,  # [NM] 0.01 to 200: side of the map; left out: the configuration's at power-up
         force: bool = ...,  # ignore the radar's limits; the blind zone stays blank
         looks: int | None = ...,  # 1 to 16: number of looks to average; left out: that of ML1
-        size: int | None = ...,  # [pixels] 16 to 4096: per side; up to 1024 with the preset reference; left out: the configuration's
+        # [pixels] 16 to 4096: per side; up to 1024 with the preset reference; left out: the configuration's
+        size: int | None = ...,
         time_s: float = ...,  # [s] 0 to 576460752: sim time at the start, for moving targets
         threads: int | None = ...,  # 1 to 256: number of threads; left out: one for each processor
         seed: int | None = ...,  # seed of the noise; left out: the configuration's

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What is written twice about the pages: the presets' errors are those of docs/performance.md, rounded; the list of licences
-has each package of package-lock.json. usage: page_facts_test.py"""
+"""What is written twice about the pages: the presets' errors are those of docs/performance.md, rounded; the list of
+licences has each package of package-lock.json. usage: page_facts_test.py"""
 import json
 import pathlib
 import re
@@ -20,7 +20,8 @@ def measured():
     """Rows of the first table of the section: name -> cells."""
     text = (TOP / "docs/performance.md").read_text(encoding="utf-8").split("\n## Speed against accuracy\n")[1]
     table = text[text.index("\n| point | ms a scan |"):].split("\n\n")[0]
-    return {cells[0]: cells for cells in ([cell.strip() for cell in line.strip("|").split("|")] for line in table.strip().splitlines())}
+    return {cells[0]: cells for cells in ([cell.strip() for cell in line.strip("|").split("|")]
+                                          for line in table.strip().splitlines())}
 
 
 def shown():
@@ -43,21 +44,25 @@ class Presets(unittest.TestCase):
                     continue
                 digits = len(text.partition(".")[2])
                 self.assertLessEqual(abs(float(text) - float(mean)), 0.5000001 * 10.0**-digits,
-                                     f"{name} {field}: expected docs/performance.md's {mean}, found {text} in presets.ts")
+                                     f"{name} {field}: expected docs/performance.md's {mean}, found {text} in "
+                                     "presets.ts")
                 self.assertEqual(float(text) == 0, float(mean) == 0, f"{name} {field}: rounded to nothing")
 
 
 class Licences(unittest.TestCase):
     def test_each_package_stands_in_the_list(self):
         packages = json.loads((TOP / "station/web/package-lock.json").read_text(encoding="utf-8"))["packages"]
-        found = {(re.sub(r"^node_modules/(@esbuild/).*", r"\1*", path).removeprefix("node_modules/"), one["version"], one["license"])
+        found = {(re.sub(r"^node_modules/(@esbuild/).*", r"\1*", path).removeprefix("node_modules/"), one["version"],
+                  one["license"])
                  for path, one in packages.items() if path}
-        rows = re.findall(r"^\| (\S+) \| (\d\S*) \| (\S+) \|", (TOP / "station/web/LICENCES.md").read_text(encoding="utf-8"), re.M)
+        rows = re.findall(r"^\| (\S+) \| (\d\S*) \| (\S+) \|",
+                          (TOP / "station/web/LICENCES.md").read_text(encoding="utf-8"), re.M)
         self.assertEqual(set(rows), found)
 
     def test_the_pages_have_no_code_of_others(self):
         package = json.loads((TOP / "station/web/package.json").read_text(encoding="utf-8"))
-        self.assertNotIn("dependencies", package, "what the pages hold belongs into LICENCES.md, and its licence into dist/")
+        self.assertNotIn("dependencies", package,
+                         "what the pages hold belongs into LICENCES.md, and its licence into dist/")
 
 
 if __name__ == "__main__":

@@ -16,7 +16,8 @@ class Style:
     def above(self, text, indent=""):
         room = WIDTH - len(indent) - max(len(self.first), len(self.further)) - len(self.close)
         lines = textwrap.wrap(text.replace("*/", "* /"), room, break_on_hyphens=False)
-        return "\n".join(indent + (self.further if number else self.first) + line for number, line in enumerate(lines)) + self.close + "\n"
+        return "\n".join(indent + (self.further if number else self.first) + line
+                         for number, line in enumerate(lines)) + self.close + "\n"
 
 
 CPP = Style("  ", "// ", "", "// ", "// ")

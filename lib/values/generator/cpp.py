@@ -60,13 +60,15 @@ def field_item(field):
 
 
 def record(one):
-    values = f"  using Values = values::{one.name};  // what people give\n" if any(field.shown for field in one.fields) else ""
+    values = (f"  using Values = values::{one.name};  // what people give\n"
+              if any(field.shown for field in one.fields) else "")
     text = doc_lines(one) + f"struct {one.name} {{\n" + values + commented(map(field_item, one.fields), "  ") + "};\n"
     text += f"static_assert(sizeof({one.name}) == {one.size} && std::is_trivially_copyable_v<{one.name}>);\n"
     last = one.fields[-1]
     if last.cut:
         text += (f"\n// Bytes of the record that a ring copies: the fields, and the entries of {last.name} in use.\n"
-                 f"inline std::size_t used_bytes(const {one.name}& record) {{\n  return offsetof({one.name}, {last.name}) + "
+                 f"inline std::size_t used_bytes(const {one.name}& record) {{\n"
+                 f"  return offsetof({one.name}, {last.name}) + "
                  f"std::min<std::size_t>(record.{last.counted_by}, {last.dimensions[0][1]});\n}}\n")
     return text
 
@@ -101,7 +103,8 @@ def header(chapter, chapters):
     text += "\n" if included(chapter, chapters) else ""
     shown = [one.name for one in records if any(field.shown for field in one.fields)]
     if shown:
-        text += "namespace yars::values {  // lib/values/fields.hpp\n" + "".join(f"struct {name};\n" for name in shown) + "}\n\n"
+        text += ("namespace yars::values {  // lib/values/fields.hpp\n" +
+                 "".join(f"struct {name};\n" for name in shown) + "}\n\n")
     text += "namespace yars::databuffer {\n"
     before = None
     for one in chapter.declarations:
@@ -177,7 +180,8 @@ def checks_header(chapters):
                     if one.name not in (MIRRORED, "records")) + "\nnamespace yars::databuffer {\n\n"
     text += "".join(filter(None, map(by_hand_limits, schema.records_of(chapters)))) + "\n"
     text += "// Reports the first field that is out of range to the inspection. Fields with @by_hand are not checked.\n"
-    text += "".join(f"void check_fields(Inspection& inspection, const {one.name}& record);\n" for one in whole_records(chapters))
+    text += "".join(f"void check_fields(Inspection& inspection, const {one.name}& record);\n"
+                    for one in whole_records(chapters))
     return text + "\n}  // namespace yars::databuffer\n"
 
 
@@ -185,10 +189,12 @@ def checks_source(chapters):
     text = MADE.format("records.idl") + '\n#include "databuffer/messages/record_checks.hpp"\n\n#include <limits>\n\n'
     text += "namespace yars::databuffer {\n\nnamespace {\n\n"
     text += "// Limit of a range without a limit.\n"
-    text += "[[maybe_unused]] constexpr double kInfinity = std::numeric_limits<double>::infinity();\n\n}  // namespace\n"
+    text += ("[[maybe_unused]] constexpr double kInfinity = std::numeric_limits<double>::infinity();\n\n"
+             "}  // namespace\n")
     for one in whole_records(chapters):
         body = checks(one, "record", "", "  ")
-        names = ("Inspection& inspection", f"const {one.name}& record") if body else ("Inspection&", f"const {one.name}&")
+        names = (("Inspection& inspection", f"const {one.name}& record") if body else
+                 ("Inspection&", f"const {one.name}&"))
         text += f"\nvoid check_fields({', '.join(names)}) {{\n{body}}}\n"
     return text + "\n}  // namespace yars::databuffer\n"
 
@@ -203,19 +209,23 @@ def field_row(one, field):
 
 def table_source(chapters):
     records = schema.records_of(chapters)
-    text = MADE.format("records.idl") + '\n#include "databuffer/messages/record_fields.hpp"\n\n#include <array>\n#include <limits>\n\n'
-    text += "".join(f'#include "databuffer/messages/{one.name}.hpp"\n' for one in chapters if one.name not in (MIRRORED, "records"))
+    text = (MADE.format("records.idl") +
+            '\n#include "databuffer/messages/record_fields.hpp"\n\n#include <array>\n#include <limits>\n\n')
+    text += "".join(f'#include "databuffer/messages/{one.name}.hpp"\n' for one in chapters
+                    if one.name not in (MIRRORED, "records"))
     text += '#include "lib/radar/modes.hpp"\n\nnamespace yars::databuffer {\n\nnamespace {\n\n'
     text += "constexpr double kNoLimit = std::numeric_limits<double>::infinity();\n\n"
     for one in records:
         rows = "".join(field_row(one, field) for field in one.fields if not field.reserved)
         text += f"constexpr RecordField k{one.name}Fields[] = {{\n{rows}}};\n\n"
     text += "constexpr RecordFields kRecords[] = {\n" + "".join(
-        f'    {{"{one.name}", sizeof({one.name}), k{one.name}Fields}},\n' for one in records) + "};\n\n}  // namespace\n\n"
+        f'    {{"{one.name}", sizeof({one.name}), k{one.name}Fields}},\n'
+        for one in records) + "};\n\n}  // namespace\n\n"
     text += "std::span<const RecordFields> record_fields() {\n  return kRecords;\n}\n\n"
     text += "// Offsets and the values of lib/radar/modes.hpp are equal in the IDL and in C++.\n"
     for one in records:
-        text += "".join(f"static_assert(offsetof({one.name}, {field.name}) == {field.offset});\n" for field in one.fields)
+        text += "".join(f"static_assert(offsetof({one.name}, {field.name}) == {field.offset});\n"
+                        for field in one.fields)
     return text + "".join(mirror_asserts(chapters)) + "\n}  // namespace yars::databuffer\n"
 
 

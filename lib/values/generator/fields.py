@@ -1,5 +1,5 @@
-"""Writers of what people give, values of the world (@shown in records.idl) and requests (requests.idl): structs, tables and
-defaults in C++, forms of the pages in TypeScript, limits and keywords in Python."""
+"""Writers of what people give, values of the world (@shown in records.idl) and requests (requests.idl): structs, tables
+and defaults in C++, forms of the pages in TypeScript, limits and keywords in Python."""
 from . import comments, schema
 from .schema import Constant, Enumeration, Record
 
@@ -8,7 +8,8 @@ FIELDS = "lib/values/fields.hpp"
 DEFAULTS = "lib/values/defaults.hpp"
 STRUCTS = "yars/requests.hpp"
 # Record -> its interface in the pages. JSON has further members of some, which messages.ts adds.
-INTERFACES = {"WorldRainCell": "Rain", "WorldJammer": "JammerValues", "WorldMover": "Mover", "WorldPoint": "SequencePoint"}
+INTERFACES = {"WorldRainCell": "Rain", "WorldJammer": "JammerValues", "WorldMover": "Mover",
+              "WorldPoint": "SequencePoint"}
 
 
 def cpp_type(field):
@@ -40,19 +41,23 @@ def declarations(chapter, kind):
 
 def described(chapters):
     """[(record, its fields that people give)]."""
-    given = [(one, [field for field in one.fields if field.shown or one.request]) for one in schema.records_of(chapters)]
+    given = [(one, [field for field in one.fields if field.shown or one.request])
+             for one in schema.records_of(chapters)]
     return [(one, fields) for one, fields in given if fields]
 
 
 def structs(chapter):
-    text = ("// What a program asks of a radar without a session (yars/radar.hpp). Both limits of a field are valid values.\n"
+    text = ("// What a program asks of a radar without a session (yars/radar.hpp). "
+            "Both limits of a field are valid values.\n"
             + MADE.format("requests.idl") +
-            "// SPDX-License-Identifier: MIT\n#pragma once\n\n#include <cstdint>\n#include <optional>\n\nnamespace yars {\n")
+            "// SPDX-License-Identifier: MIT\n#pragma once\n\n#include <cstdint>\n#include <optional>\n\n"
+            "namespace yars {\n")
     for one in declarations(chapter, Enumeration):
         text += f"\nenum class {one.name} : std::uint{one.bits}_t {{ {', '.join(name for name, _ in one.values)} }};\n"
     for one in declarations(chapter, Record):
         text += "\n" + "".join(f"// {line}\n" for line in one.doc) + f"struct {one.name} {{\n"
-        text += comments.aligned([("", f"{cpp_type(field)} {field.name}{initial(field)};", about(field)) for field in one.fields],
+        text += comments.aligned([("", f"{cpp_type(field)} {field.name}{initial(field)};", about(field))
+                                  for field in one.fields],
                                  comments.CPP, "  ") + "};\n"
     return text + "\n}  // namespace yars\n"
 
@@ -73,7 +78,8 @@ def unit(field):
 def row(field):
     low, high, default = (schema.shown(value) if value is not None else None for value in limits(field))
     values = ", ".join(f'"{name}"' for name, _ in field.type.values) if isinstance(field.type, Enumeration) else ""
-    texts = ", ".join(f'"{text}"' for text in (field.shown_name, field.stem.replace("_", " "), field.option, unit(field)))
+    texts = ", ".join(f'"{text}"' for text in (
+        field.shown_name, field.stem.replace("_", " "), field.option, unit(field)))
     more = f", {default or 'kNone'}, {field.shown.factor.expression}" if field.shown else ""
     return (f'  static constexpr Field {field.stem}{{{texts}, {low or "-kAny"}, {high or "kAny"},\n'
             f'      "{" ".join(field.doc)}", "{field.nan or field.otherwise}", {{{values}}}{more}}};\n')
@@ -108,7 +114,8 @@ def table(chapters):
             "  double recorded(double given) const { return given * factor; }     // in the unit of the record\n};\n")
     records = described(chapters)
     for one, fields in records:
-        text += f"\n// Fields of {one.name}. `visit` calls each(field, value) for a reference to each of its values, in order.\n"
+        text += (f"\n// Fields of {one.name}. `visit` calls each(field, value) for a reference to each of its values, "
+                 "in order.\n")
         if is_placed(one, fields):
             text += "// `copy` copies them, but for the position, from or to a structure with members of these names.\n"
         text += f"struct {one.name} {{\n" + "".join(map(row, fields))
@@ -128,7 +135,8 @@ def table(chapters):
 
 def defaults(chapters):
     """Defaults of the world's values in the units of the records, and the numbers of its entries."""
-    text = ("// Defaults of the values of the world, and the greatest numbers of its entries.\n" + MADE.format("records.idl") +
+    text = ("// Defaults of the values of the world, and the greatest numbers of its entries.\n" +
+            MADE.format("records.idl") +
             "#pragma once\n\nnamespace yars::values {\n\n")
     for name, (value, _) in counts(chapters).items():
         text += f"inline constexpr int {name} = {value};\n"
@@ -136,14 +144,16 @@ def defaults(chapters):
         fields = [field for field in fields if field.shown and field.shown.initial is not None]
         if fields:
             text += f"\nstruct {one.name}Defaults {{\n" + "".join(
-                f"  static constexpr double {field.name} = {float(field.shown.initial)!r} * ({field.shown.factor.expression});\n"
+                f"  static constexpr double {field.name} = {float(field.shown.initial)!r} * "
+                f"({field.shown.factor.expression});\n"
                 for field in fields) + "};\n"
     return text + "\n}  // namespace yars::values\n"
 
 
 def counts(chapters):
-    """{name of a constant: (value, what it counts)}: the greatest numbers of entries of the records that people change."""
-    constants = {one.scoped: one.value for chapter in chapters for one in chapter.declarations if isinstance(one, Constant)}
+    """{name of a constant: (value, what it counts)}: greatest numbers of entries of the records that people change."""
+    constants = {one.scoped: one.value for chapter in chapters for one in chapter.declarations
+                 if isinstance(one, Constant)}
     return {expression: (constants[expression], field) for one, _ in described(chapters) for field in one.fields
             for _, expression in field.dimensions if field.counted_by and expression in constants}
 
@@ -161,10 +171,15 @@ def python_type(field):
     return f"{kind} | None" if field.optional else kind
 
 
+def stub(field):
+    code, comment = f"        {field.name}: {python_type(field)} = ...,", f"# {about(field)}"
+    fits = len(f"{code}  {comment}") <= comments.WIDTH
+    return f"{code}  {comment}\n" if fits else f"        {comment}\n{code}\n"
+
+
 def stubs(chapter):
     """{request: keyword arguments with type and purpose, as lines of a stub}"""
-    return {one.name: "".join(f"        {field.name}: {python_type(field)} = ...,  # {about(field)}\n" for field in one.fields)
-            for one in declarations(chapter, Record)}
+    return {one.name: "".join(map(stub, one.fields)) for one in declarations(chapter, Record)}
 
 
 def python_values(records, requests, file):
@@ -176,8 +191,11 @@ def python_values(records, requests, file):
             low, high, default = limits(field)
             if f'"{one.name}.{field.stem}"' in file:
                 numbers = ", ".join(schema.shown(value) if value is not None else "None" for value in (low, high))
+                head, purpose = f'    "{one.name}.{field.stem}": (', f'"{" ".join(field.doc)}"),'
                 default = f'"{schema.shown(default)}"' if default is not None else "None"
-                text += f'    "{one.name}.{field.stem}": ({numbers}, "{unit(field)}", {default}, "{" ".join(field.doc)}"),\n'
+                facts = f'{head}{numbers}, "{unit(field)}", {default},'
+                fits = len(f"{facts} {purpose}") <= comments.WIDTH
+                text += facts + (" " if fits else "\n" + " " * len(head)) + purpose + "\n"
     return text + "}\n"
 
 
@@ -187,8 +205,8 @@ def typescript(records, requests):
     text = ("// Entries of the world, and the values that people give with their limits.\n"
             "// Generated by lib/values/generate.py from records.idl and requests.idl. Do not edit.\n\n"
             "// `name`: in messages. `otherwise`: what holds where the value is null or left out.\n"
-            "export interface Field {\n  name: string; label: string; unit: string; min: number; max: number; purpose: string; "
-            "otherwise: string;\n}\n\n")
+            "export interface Field {\n  name: string; label: string; unit: string; min: number; max: number; "
+            "purpose: string; otherwise: string;\n}\n\n")
     given = described(records + [chapter for chapter in requests if chapter.name == "requests"])
     for one, _ in given:
         if one.name in INTERFACES:
@@ -198,7 +216,8 @@ def typescript(records, requests):
                     members.append(f"{field.shown_name}: number" + (" | null" if field.nan is not None else ""))
                 elif isinstance(field.type, (int, Enumeration)):
                     members.append(f"{field.name}: string")
-            text += f"export interface {INTERFACES[one.name]} {{ {'; '.join(members)} }}\n"
+            text += (f"export interface {INTERFACES[one.name]} {{\n" + "".join(f"  {member};\n" for member in members) +
+                     "}\n")
     text += "\nexport const FIELDS = {\n"
     for one, fields in given:
         fields = [field for field in fields if limits(field)[0] is not None]
@@ -206,9 +225,11 @@ def typescript(records, requests):
             text += f"  {one.name}: {{\n"
             for field in fields:
                 low, high, _ = limits(field)
-                text += (f'    {field.stem}: {{ name: "{field.shown_name}", label: "{field.stem.replace("_", " ").capitalize()}", '
+                text += (f'    {field.stem}: {{ name: "{field.shown_name}", '
+                         f'label: "{field.stem.replace("_", " ").capitalize()}", '
                          f'unit: "{unit(field)}", min: {schema.shown(low)}, max: {schema.shown(high)},\n'
                          f'      purpose: "{" ".join(field.doc)}", otherwise: "{field.nan or field.otherwise}" }},\n')
             text += "  },\n"
     latest = next(one.value for chapter in records for one in chapter.declarations if one.name == "kLatestSimTime_s")
-    return text + f"}} satisfies Record<string, Record<string, Field>>;\n\nexport const LATEST_SIM_TIME_S = {schema.shown(latest)};\n"
+    return text + ("} satisfies Record<string, Record<string, Field>>;\n\n"
+                   f"export const LATEST_SIM_TIME_S = {schema.shown(latest)};\n")

@@ -1,7 +1,8 @@
 """Parser of the records' IDL (interface definition language): the part of IDL 4.2 that records.idl uses.
 
-In: modules, const, enum, bitmask and struct of the building blocks Core Data Types and Extended Data Types, annotations,
-#include "file" from the same folder. Out: a list of schema.Chapter. Other text raises schema.IdlError with file and line.
+In: modules, const, enum, bitmask and struct of the building blocks Core Data Types and Extended Data Types,
+annotations, #include "file" from the same folder. Out: a list of schema.Chapter. Other text raises schema.IdlError with
+file and line.
 Source: OMG IDL 4.2 (formal/18-01-05), 7.4.1, 7.4.13, 7.4.15, 8.
 """
 import math
@@ -14,7 +15,8 @@ TOKEN = re.compile(r"""(?P<blank>[ \t\r]+)|(?P<line>\n)|(?P<comment>//[^\n]*)|(?
     |(?P<number>(?:\d+\.\d*(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+|0[xX][0-9a-fA-F]+|\d+))|(?P<string>"(?:[^"\\\n]|\\.)*")
     |(?P<name>(?:::)?[A-Za-z]\w*(?:::[A-Za-z]\w*)*)|(?P<mark>[@(){}\[\]<>;:,=+\-*/])""", re.X)
 ARITHMETIC = {"+": lambda a, b: a + b, "-": lambda a, b: a - b, "*": lambda a, b: a * b}
-ANNOTATIONS = {"final", "nested", "bit_bound", "position", "unit", "range", "min", "max", "default", "nan", "counted_by", "cut",
+ANNOTATIONS = {"final", "nested", "bit_bound", "position", "unit", "range", "min", "max", "default", "nan",
+               "counted_by", "cut",
                "by_hand", "request", "option", "otherwise", "optional", "shown", "different_picture"}
 TYPES = {**schema.INTEGERS, **schema.REALS}
 
@@ -131,10 +133,12 @@ class Parser:
     # ---- declarations
     def declare(self, declaration):
         full = (*self.module, declaration.name)
-        clash = next((other for other in self.names if [part.lower() for part in other] == [part.lower() for part in full]), None)
+        clash = next((other for other in self.names
+                      if [part.lower() for part in other] == [part.lower() for part in full]), None)
         if clash:
-            raise IdlError(declaration.where, f"a new name in module {'::'.join(self.module)}", f"'{declaration.name}' beside "
-                           f"'{clash[-1]}'", "IDL does not distinguish names by case; rename one")
+            raise IdlError(declaration.where, f"a new name in module {'::'.join(self.module)}",
+                           f"'{declaration.name}' beside '{clash[-1]}'",
+                           "IDL does not distinguish names by case; rename one")
         self.names[full] = declaration
         self.chapter.declarations.append(declaration)
 
@@ -190,8 +194,8 @@ class Parser:
             value.value = float(value.value)
         elif not isinstance(value.value, int):
             raise IdlError(where, f"a whole number for {name}", schema.shown(value.value))
-        self.declare(schema.Constant(name, self.doc(first, last), where, self.module, kind, value.expression, value.value,
-                                     heading=self.heading(first)))
+        self.declare(schema.Constant(name, self.doc(first, last), where, self.module, kind, value.expression,
+                                     value.value, heading=self.heading(first)))
 
     def enumeration(self, notes, first):
         where, name = self.where, self.expect_name("an enumeration")
@@ -200,7 +204,8 @@ class Parser:
         while True:
             at, marked, word = self.token.line, self.annotations(), self.expect_name("a value")
             if not word.startswith(name + "_"):
-                raise IdlError(f"{self.scan.name}:{at}", f"a value named {name}_...", f"'{word}'", "IDL's values share one scope")
+                raise IdlError(f"{self.scan.name}:{at}", f"a value named {name}_...", f"'{word}'",
+                               "IDL's values share one scope")
             self.is_next(",")
             values.append((word.removeprefix(name + "_"), self.doc(at, at)))
             marks[values[-1][0]] = marked
@@ -220,7 +225,8 @@ class Parser:
                 raise IdlError(f"{self.scan.name}:{at}", f"@position(0 to {self.bits(notes, where) - 1}) at {word}",
                                "none" if position is None else str(position[""].value))
             if position[""].value in [other for _, other, _ in flags]:
-                raise IdlError(f"{self.scan.name}:{at}", "one bit at a position", f"two at {position[''].value}", "move one")
+                raise IdlError(f"{self.scan.name}:{at}", "one bit at a position", f"two at {position[''].value}",
+                               "move one")
             self.is_next(",")
             flags.append((word, position[""].value, self.doc(at, at)))
             if self.is_next("}"):
@@ -239,7 +245,8 @@ class Parser:
         if ("final" in notes) == ("request" in notes):
             raise IdlError(where, f"@final or @request at {name}", "both" if "final" in notes else "none",
                            "a record has a fixed layout, a request has none")
-        record = schema.Record(name, self.comment_above(first), where, self.module, nested="nested" in notes, request="request" in notes)
+        record = schema.Record(name, self.comment_above(first), where, self.module, nested="nested" in notes,
+                               request="request" in notes)
         if self.is_next(":"):
             record.fields += self.find(self.expect_name("a request"), "the name of a request", schema.Record).fields
         self.expect("{")
@@ -329,7 +336,8 @@ class Parser:
         unit, initial = note.get("unit", field.unit), note["initial"].value if "initial" in note else None
         factor = schema.Limit(1.0, "1.0") if unit == field.unit else schema.FACTORS.get((unit, field.unit))
         if factor is None:
-            raise IdlError(field.where, f"a unit of @shown that becomes [{field.unit}]", f"[{unit}]", "add it to FACTORS of schema.py")
+            raise IdlError(field.where, f"a unit of @shown that becomes [{field.unit}]", f"[{unit}]",
+                           "add it to FACTORS of schema.py")
         if field.minimum and field.maximum:
             low, high = math.ceil(field.minimum.value / factor.value), math.floor(field.maximum.value / factor.value)
         elif "min" in note and "max" in note:
@@ -339,7 +347,8 @@ class Parser:
                 field.minimum = schema.beyond(low * factor.value, -1)
                 field.maximum = schema.beyond(high * factor.value, 1)
         else:
-            raise IdlError(field.where, f"@shown with min and max, or @range, at {field.name}", ", ".join(note) or "none")
+            raise IdlError(field.where, f"@shown with min and max, or @range, at {field.name}",
+                           ", ".join(note) or "none")
         if initial is not None and not low <= initial <= high:
             raise IdlError(field.where, f"an initial {field.name} in [{low}, {high}] {unit}", schema.shown(initial))
         field.shown = schema.Shown(unit, factor, float(low), float(high), initial)
@@ -353,7 +362,8 @@ class Parser:
         while self.token.text in marks:
             mark = self.next().text
             right = part()
-            left = schema.Limit(ARITHMETIC[mark](left.value, right.value), f"{left.expression} {mark} {right.expression}")
+            left = schema.Limit(ARITHMETIC[mark](left.value, right.value),
+                                f"{left.expression} {mark} {right.expression}")
         return left
 
     def factor(self):

@@ -1,10 +1,11 @@
-"""Writers of the names of the presets of fidelity (presets.idl): constants in C++, and the lists in files of the tree."""
+"""Writers of the names of the presets of fidelity (presets.idl): constants in C++, and lists in files of the tree."""
 import re
 
 from . import comments
 
 HEADER = "lib/values/presets.hpp"
-# Files of the tree with lists of all presets in code, comments or texts: "draft", "standard", "fine"; draft, standard or fine.
+# Files of the tree with lists of all presets in code, comments or texts: "draft", "standard", "fine"; draft, standard
+# or fine.
 LISTS = ("config/apg70nd.guf", "python/yars/dataset/keys.py", "python/yars/results.py", "python/yars/results.pyi",
          "radar/yars/radar.hpp", "scripts/starting/options.py", "tests/scripts/tour_start_test.py")
 LIST = re.compile(r'"?\w+"?(?:(?:, | or )"?\w+"?)+')
@@ -44,7 +45,8 @@ def listed(text, known):
 
 
 def has_list(text, known):
-    return any(sum(word.strip('"') in known for word in re.split(", | or ", found)) >= FEWEST for found in LIST.findall(text))
+    return any(sum(word.strip('"') in known for word in re.split(", | or ", found)) >= FEWEST
+               for found in LIST.findall(text))
 
 
 def typescript(enumeration):

@@ -50,7 +50,8 @@ class Constant(Declaration):
 @dataclasses.dataclass(eq=False)
 class Enumeration(Declaration):
     bits: int = 32
-    values: list = dataclasses.field(default_factory=list)  # (name without the type's prefix, doc lines), numbered from 0
+    # (name without the type's prefix, doc lines), numbered from 0
+    values: list = dataclasses.field(default_factory=list)
     notes: dict = dataclasses.field(default_factory=dict)  # name of a value -> its annotations
 
 
@@ -95,7 +96,8 @@ class Shown:
 
 @dataclasses.dataclass(eq=False)
 class Field(Declaration):
-    type: object = None  # str: name of a number type; int: maximum length of a string; else Enumeration, Bitmask or Record
+    # str: name of a number type; int: maximum length of a string; else Enumeration, Bitmask or Record
+    type: object = None
     dimensions: list = dataclasses.field(default_factory=list)  # (entries, C++ expression)
     unit: str = ""
     minimum: Limit = None
@@ -114,7 +116,8 @@ class Field(Declaration):
     @property
     def stem(self):
         """Name without its unit."""
-        return self.name.rpartition("_")[0] if SUFFIXES.get(self.name.rpartition("_")[2], None) == self.unit else self.name
+        return (self.name.rpartition("_")[0] if SUFFIXES.get(self.name.rpartition("_")[2], None) == self.unit else
+                self.name)
 
     @property
     def shown_name(self):
@@ -155,7 +158,7 @@ class Field(Declaration):
 
     @property
     def number(self):
-        """IDL type of the number in memory, an unsigned integer for enumerations and bit masks; None: text or record."""
+        """IDL type of the number in memory, unsigned integer for enumerations and bit masks; None: text or record."""
         if isinstance(self.type, (Enumeration, Bitmask)):
             return f"uint{self.type.bits}"
         return self.type if isinstance(self.type, str) else None
@@ -165,8 +168,10 @@ class Field(Declaration):
         kind = self.type.scoped if isinstance(self.type, (Enumeration, Bitmask)) else ""
         text = " ".join(filter(None, [kind, *self.doc]))
         missing = f"NaN = {self.nan}" if self.nan is not None else ""
-        people = self.shown.text() if self.shown and (self.shown.unit != self.unit or self.shown.initial is not None) else ""
-        return "; ".join(filter(None, [text, people, missing, f"the first `{self.counted_by}` are in use" if self.counted_by else ""]))
+        people = (self.shown.text() if self.shown and (self.shown.unit != self.unit or self.shown.initial is not None)
+                  else "")
+        return "; ".join(filter(None, [text, people, missing,
+                                       f"the first `{self.counted_by}` are in use" if self.counted_by else ""]))
 
 
 @dataclasses.dataclass(eq=False)
@@ -199,7 +204,8 @@ def range_text(field):
     if field.minimum and field.maximum:
         return f"[{shown(field.minimum.value)}, {shown(field.maximum.value)}]"
     if field.maximum:
-        return f"at most {shown(field.maximum.value)}" if field.number in REALS else f"[0, {shown(field.maximum.value)}]"
+        return (f"at most {shown(field.maximum.value)}" if field.number in REALS else
+                f"[0, {shown(field.maximum.value)}]")
     return f"at least {shown(field.minimum.value)}" if field.minimum else ""
 
 
@@ -220,14 +226,14 @@ def lay_out(record):
     at = 0
     for field in record.fields:
         if at % field.alignment:
-            raise IdlError(field.where, f"{record.name}.{field.name} at a multiple of {field.alignment} bytes", f"offset {at}",
-                           f"put {field.alignment - at % field.alignment} reserved bytes before it")
+            raise IdlError(field.where, f"{record.name}.{field.name} at a multiple of {field.alignment} bytes",
+                           f"offset {at}", f"put {field.alignment - at % field.alignment} reserved bytes before it")
         field.offset = at
         at += field.size
         record.alignment = max(record.alignment, field.alignment)
     if at % record.alignment:
-        raise IdlError(record.where, f"a size of {record.name} that is a multiple of {record.alignment} bytes", f"{at} bytes",
-                       f"put {record.alignment - at % record.alignment} reserved bytes at its end")
+        raise IdlError(record.where, f"a size of {record.name} that is a multiple of {record.alignment} bytes",
+                       f"{at} bytes", f"put {record.alignment - at % record.alignment} reserved bytes at its end")
     record.size = at
 
 
@@ -241,11 +247,13 @@ def check_unit(field):
 def check_limits(field):
     limits = [limit for limit in (field.minimum, field.maximum) if limit]
     if limits and (field.number is None or not isinstance(field.type, str)):
-        raise IdlError(field.where, f"a number type for {field.name}, which has a range", "a type without order", "take the range away")
+        raise IdlError(field.where, f"a number type for {field.name}, which has a range", "a type without order",
+                       "take the range away")
     if field.nan is not None and field.type not in REALS:
         raise IdlError(field.where, f"double or float for @nan of {field.name}", str(field.number), "take @nan away")
     if field.minimum and field.maximum and not field.minimum.value <= field.maximum.value:
-        raise IdlError(field.where, f"a range of {field.name} that begins below its end", range_text(field), "mend @range")
+        raise IdlError(field.where, f"a range of {field.name} that begins below its end", range_text(field),
+                       "mend @range")
     for limit in limits + ([field.default] if field.default else []):
         if field.type in INTEGERS:
             _, least, greatest = INTEGERS[field.type]
@@ -255,14 +263,16 @@ def check_limits(field):
     if field.default and field.type in {**REALS, **INTEGERS}:
         low, high = field.minimum, field.maximum
         if low and field.default.value < low.value or high and field.default.value > high.value:
-            raise IdlError(field.where, f"a default of {field.name} in {range_text(field)}", shown(field.default.value), "mend the default or the range")
+            raise IdlError(field.where, f"a default of {field.name} in {range_text(field)}", shown(field.default.value),
+                           "mend the default or the range")
 
 
 def check_count(record, field):
     if len(field.dimensions) > 1:
         raise IdlError(field.where, f"one dimension at {field.name}", f"{len(field.dimensions)}", "use one array")
     if field.cut and (field is not record.fields[-1] or field.counted_by is None or field.element_size != 1):
-        raise IdlError(field.where, "@cut on the last field, an array of bytes with @counted_by", f"@cut on {field.name}")
+        raise IdlError(field.where, "@cut on the last field, an array of bytes with @counted_by",
+                       f"@cut on {field.name}")
     if field.counted_by is None:
         return
     counter = next((other for other in record.fields if other.name == field.counted_by), None)
@@ -270,15 +280,16 @@ def check_count(record, field):
         raise IdlError(field.where, f"a whole number with @range named {field.counted_by} in {record.name}",
                        "none" if counter is None else "another field", "name the field that counts the entries")
     if not field.dimensions or (counter.minimum.value, counter.maximum.value) != (0, field.entries):
-        raise IdlError(counter.where, f"@range(min=0, max={field.entries}), the entries of {field.name}", range_text(counter),
-                       "mend the range or the array")
+        raise IdlError(counter.where, f"@range(min=0, max={field.entries}), the entries of {field.name}",
+                       range_text(counter), "mend the range or the array")
 
 
 def check_record(record):
     names = {}
     for field in record.fields:
         if field.name.lower() in names:
-            raise IdlError(field.where, f"one {field.name} in {record.name}", "two", "IDL does not distinguish them by case; rename one")
+            raise IdlError(field.where, f"one {field.name} in {record.name}", "two",
+                           "IDL does not distinguish them by case; rename one")
         names[field.name.lower()] = field
         check_unit(field)
         check_limits(field)
@@ -295,11 +306,13 @@ def check_request(request):
     options = [field.option for field in request.fields]
     for field in request.fields:
         if options.count(field.option) > 1:
-            raise IdlError(field.where, f"one option {field.option} in {request.name}", "two", "give one another @option")
+            raise IdlError(field.where, f"one option {field.option} in {request.name}", "two",
+                           "give one another @option")
         if field.dimensions or isinstance(field.type, (int, Record, Bitmask)):
             raise IdlError(field.where, f"a number, boolean or enumeration for {field.name}", "another type")
         if field.optional != bool(field.otherwise):
-            raise IdlError(field.where, f"@optional with @otherwise at {field.name}", "one of them", "say what holds without the field")
+            raise IdlError(field.where, f"@optional with @otherwise at {field.name}", "one of them",
+                           "say what holds without the field")
         if field.type in INTEGERS and not field.optional and not field.default:
             raise IdlError(field.where, f"@default or @optional at {field.name}", "none")
 

@@ -36,8 +36,8 @@ def record_table(record):
         if field.heading:
             yield f"|  |  |  |  |  |  | *{cell(' '.join(field.heading))}* |\n"
         limits = " or ".join(filter(None, [schema.range_text(field), "NaN" if field.nan is not None else ""]))
-        yield (f"| {field.offset} | {field.size} | `{field.name}` | {schema.type_text(field)} | {shown_unit(field.unit)} | "
-               f"{limits} | {cell(field.sentence())} |\n")
+        yield (f"| {field.offset} | {field.size} | `{field.name}` | {schema.type_text(field)} | "
+               f"{shown_unit(field.unit)} | {limits} | {cell(field.sentence())} |\n")
     yield "\n"
 
 
@@ -45,13 +45,17 @@ def values(chapters):
     """Lists of all enumerations, bit masks and constants."""
     for one in (one for chapter in chapters for one in chapter.declarations):
         if isinstance(one, Enumeration):
-            texts = [f"{number} {name}" + (f" ({' '.join(doc)})" if doc else "") for number, (name, doc) in enumerate(one.values)]
+            texts = [f"{number} {name}" + (f" ({' '.join(doc)})" if doc else "")
+                     for number, (name, doc) in enumerate(one.values)]
             long = any(doc for _, doc in one.values)
-            yield f"- `{one.name}`, uint{one.bits}:" + ("\n  - " if long else " ") + ("\n  - " if long else ", ").join(texts) + "\n"
+            yield (f"- `{one.name}`, uint{one.bits}:" + ("\n  - " if long else " ") +
+                   ("\n  - " if long else ", ").join(texts) + "\n")
         elif isinstance(one, Bitmask):
-            texts = [f"{1 << position} {name}" + (f" ({' '.join(doc)})" if doc else "") for name, position, doc in one.flags]
+            texts = [f"{1 << position} {name}" + (f" ({' '.join(doc)})" if doc else "")
+                     for name, position, doc in one.flags]
             long = any(doc for _, _, doc in one.flags)
-            yield f"- `{one.name}`, bits:" + ("\n  - " if long else " ") + ("\n  - " if long else ", ").join(texts) + "\n"
+            yield (f"- `{one.name}`, bits:" + ("\n  - " if long else " ") +
+                   ("\n  - " if long else ", ").join(texts) + "\n")
     yield "- Constants:\n"
     for one in (one for chapter in chapters for one in chapter.declarations if isinstance(one, Constant)):
         yield f"  - {schema.shown(one.value)} {one.name}" + (f": {' '.join(one.doc)}" if one.doc else "") + "\n"

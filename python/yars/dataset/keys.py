@@ -6,8 +6,8 @@ import math
 
 INFINITY = float("inf")
 
-# kind: whole, number, text, yes/no, list, section, path, place, names, any. `drawn`: a distribution is allowed. `most`: a
-# whole number or number lies in [least, most]; of a text, `values` are the words allowed.
+# kind: whole, number, text, yes/no, list, section, path, place, names, any. `drawn`: a distribution is allowed. `most`:
+# a whole number or number lies in [least, most]; of a text, `values` are the words allowed.
 Key = collections.namedtuple("Key", "path kind least most unit drawn default text values", defaults=((),))
 
 ARRAYS = ("video", "power", "shadow", "layover", "object", "material", "height", "grazing_angle")
@@ -28,10 +28,12 @@ _VALUES = {  # least, greatest, unit, default, purpose
     "WorldRainCell.rate": (0.1, 300, "mm/h", "10", "rain rate at the axis"),
     "WorldRainCell.top": (500, 60000, "ft", "15000", "top above mean sea level"),
     "WorldMover.speed": (0, 10000, "kt", "0", "over ground"),
-    "WorldMover.heading": (-360, 360, "deg", "0", "true heading at the beginning; later the direction of the great circle"),
+    "WorldMover.heading": (-360, 360, "deg", "0",
+                           "true heading at the beginning; later the direction of the great circle"),
     "WorldState.sea_state": (0, 6, "", None, "state of the sea, WMO code 3700"),
     "WorldState.wind_speed": (0, 120, "kt", "10", "wind over the sea; used if the sea state is not given"),
-    "WorldState.wind_from": (0, 360, "deg", "270", "true direction from which the wind blows; the sea is brightest in this direction"),
+    "WorldState.wind_from": (0, 360, "deg", "270",
+                             "true direction from which the wind blows; the sea is brightest in this direction"),
     "PatchRequest.altitude": (-3000, 600000, "ft", "15000", "altitude of the aircraft above mean sea level"),
     "PatchRequest.speed": (0, 10000, "kt", "480", "speed over ground"),
     "PatchRequest.window": (0.01, 200, "NM", None, "side of the map"),
@@ -55,22 +57,26 @@ def _value(path, name, default=None, text=None, kind="number"):
 
 _ROWS = [
     _key("count", "whole", (1, 10**9), text="number of items (chips)"),
-    _key("seed", "whole", (0, 2**53), default="1", text="seed of every draw; item k depends on the seed and on k alone"),
+    _key("seed", "whole", (0, 2**53), default="1",
+         text="seed of every draw; item k depends on the seed and on k alone"),
     _key("chip", "section", default="see below", text="the picture"),
     _key("radar", "section", default="the radar of YARS", text="the sensor"),
     _key("weather", "section", default="the configuration's", text="sea, wind and rain"),
     _key("terrain", "path", default="built-in hills", text="folder of elevation cells; or {generate: ...}"),
     _key("scenes", "list", default="none", text="polygonal scenes on the terrain, given or generated"),
-    _key("targets", "list", default="at the scenes", text="where the chips' centres lie; an item takes one entry, by weight"),
+    _key("targets", "list", default="at the scenes",
+         text="where the chips' centres lie; an item takes one entry, by weight"),
     _key("geometry", "section", text="where the aircraft is, seen from the target"),
     _key("movers", "list", default="none", text="groups of moving targets"),
-    _key("classes", "section", default="names without digits", text="class: pattern or list of patterns of object names"),
+    _key("classes", "section", default="names without digits",
+         text="class: pattern or list of patterns of object names"),
     _key("output", "section", default="see below", text="the files"),
 
     _key("chip.size", "whole", _VALUES["PatchRequest.size"][:2], "pixels", default="128", text="pixels along the edge"),
     _value("chip.window_nm", "PatchRequest.window", "the radar's at power-up", "edge of the ground shown"),
     _value("chip.looks", "PatchRequest.looks", "the radar's for ML1", kind="whole"),
-    _key("chip.arrays", "names", default="[video, shadow, layover, object, material]", text="arrays to keep", values=ARRAYS),
+    _key("chip.arrays", "names", default="[video, shadow, layover, object, material]", text="arrays to keep",
+         values=ARRAYS),
 
     _key("radar.preset", "text", default="the configuration's", text="fidelity", values=PRESETS),
     _key("radar.config", "path", default="built-in APG-70", text="GUF file of the radar"),
@@ -103,7 +109,8 @@ _ROWS = [
          values=("airfield", "harbour", "bridge", "town")),
     _key("scenes.triangles", "whole", (1, 8000000), "", default="20000", text="of a made-up scene: approximate number"),
     _key("scenes.seed", "whole", (0, 2**53), "", default="1", text="of a made-up scene"),
-    _key("scenes.at", "place", unit="deg", default="the file's own", text="[latitude, longitude] or [latitude, longitude, heading]"),
+    _key("scenes.at", "place", unit="deg", default="the file's own",
+         text="[latitude, longitude] or [latitude, longitude, heading]"),
     _key("scenes.without", "names", default="[]", text="of a file: names of nodes to leave out, with * and ?"),
 
     _key("targets.weight", "number", (0, 1e9), "", default="1", text="how often, relative to the other entries"),
@@ -121,7 +128,8 @@ _ROWS = [
          "angle of the line of sight below the horizontal, on a flat earth"),
     _key("geometry.bearing_deg", "number", (-360, 360), "deg", True, "{uniform: [0, 360]}",
          "true bearing of the target, at the target, of the line from the aircraft"),
-    _key("geometry.squint_deg", "number", (0, 180), "deg", True, "{uniform: [20, 60]}", "angle of the target off the ground track"),
+    _key("geometry.squint_deg", "number", (0, 180), "deg", True, "{uniform: [20, 60]}",
+         "angle of the target off the ground track"),
     _key("geometry.side", "text", default="both", text="side of the track on which the target lies",
          values=("left", "right", "both")),
     _value("geometry.speed_kt", "PatchRequest.speed"),
@@ -139,13 +147,17 @@ _ROWS = [
     _value("movers.height_m", "TrafficEntity.height", "3"),
 
     _key("output.format", "text", default="zarr", text="of the arrays", values=("zarr", "npz")),
-    _key("output.block", "whole", (1, 65536), "items", default="64", text="items of a block: the unit of work and of a chunk"),
+    _key("output.block", "whole", (1, 65536), "items", default="64",
+         text="items of a block: the unit of work and of a chunk"),
     _key("output.compression", "text", default="lz4", text="of the arrays, without loss", values=COMPRESSIONS),
-    _key("output.min_pixels", "whole", (0, 10**8), "pixels", default="1", text="boxes of objects with fewer labelled pixels are left out"),
+    _key("output.min_pixels", "whole", (0, 10**8), "pixels", default="1",
+         text="boxes of objects with fewer labelled pixels are left out"),
     _key("output.manifest_boxes", "yes/no", default="false", text="boxes in the lines of the manifest, too"),
     _key("output.png", "yes/no", default="false", text="the video of each item as PNG"),
-    _key("output.geotiff", "names", default="[]", text="arrays to write as GeoTIFF, one file an item and array", values=ARRAYS),
-    _key("output.coco", "yes/no", default="false", text="annotations.json for COCO readers; needs png, or video in geotiff"),
+    _key("output.geotiff", "names", default="[]", text="arrays to write as GeoTIFF, one file an item and array",
+         values=ARRAYS),
+    _key("output.coco", "yes/no", default="false",
+         text="annotations.json for COCO readers; needs png, or video in geotiff"),
 ]
 
 KEYS = {row.path: row for row in _ROWS}
@@ -170,8 +182,8 @@ def value_text(key):
     if key.least > -INFINITY:
         bounds = f" in [{number_text(key.least)}, {number_text(key.most)}]"
     words = {"whole": f"a whole number{bounds}", "number": f"a number{bounds}", "yes/no": "true or false",
-             "list": "a list", "section": "a section (key: value, indented)", "path": "a path", "names": "a list of names",
-             "place": key.text.split(":")[0], "any": key.text, "text": "a word"}[key.kind]
+             "list": "a list", "section": "a section (key: value, indented)", "path": "a path",
+             "names": "a list of names", "place": key.text.split(":")[0], "any": key.text, "text": "a word"}[key.kind]
     if key.values:
         words = ("a list of " if key.kind == "names" else "one of ") + ", ".join(key.values)
     return words + (f" {key.unit}" if key.unit and key.kind in ("whole", "number") else "")
@@ -184,7 +196,8 @@ def markdown():
         names = children(section)
         if not names:
             continue
-        lines += [f"## {section or 'The file'}", "", "| key | value | drawn | default | means |", "| --- | --- | --- | --- | --- |"]
+        lines += [f"## {section or 'The file'}", "", "| key | value | drawn | default | means |",
+                  "| --- | --- | --- | --- | --- |"]
         for name in names:
             key = KEYS[f"{section}.{name}" if section else name]
             value = value_text(key) if key.kind not in ("any", "place") else key.kind.replace("any", "see right")

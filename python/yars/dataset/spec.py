@@ -29,7 +29,8 @@ def _distribution(key):
     return None if isinstance(value, str) else Fixed(value if key.kind == "whole" else float(value))
 
 
-_DRAWN_DEFAULTS = {path: value for path, value in ((path, _distribution(key)) for path, key in KEYS.items() if key.drawn) if value}
+_DRAWN_DEFAULTS = {path: value
+                   for path, value in ((path, _distribution(key)) for path, key in KEYS.items() if key.drawn) if value}
 
 
 @dataclasses.dataclass
@@ -98,7 +99,7 @@ class Spec:
         return re.sub(r"[\W_]*\d+", "", name) or "object"
 
     def plain(self):
-        """All values that decide the items, as JSON types. Paths are left out, because the store hashes what they name."""
+        """All values that decide the items, as JSON types. Paths are left out: the store hashes what they name."""
         def simple(value):
             if hasattr(value, "plain"):
                 return value.plain()
@@ -121,7 +122,8 @@ class _SpecReader(Reader):
 
     def read(self):
         if self.root is None:
-            raise SpecError(f"{self.path}: expected a specification, found an empty file; begin with examples/dataset_town.yaml")
+            raise SpecError(f"{self.path}: expected a specification, found an empty file; begin with "
+                            "examples/dataset_town.yaml")
         top = self.section(self.root, "")
         plan = self.plan
         for name, node in top.items():
@@ -129,7 +131,8 @@ class _SpecReader(Reader):
         for name in ("count", "seed"):
             if name in top:
                 setattr(plan, name, self.key_number(top[name], KEYS[name]) or 0)
-        for name in ("chip", "radar", "weather", "terrain", "scenes", "targets", "geometry", "movers", "classes", "output"):
+        for name in ("chip", "radar", "weather", "terrain", "scenes", "targets", "geometry", "movers", "classes",
+                     "output"):
             if name in top:
                 getattr(self, "_" + name)(top[name])
         if not plan.targets and plan.scenes and "targets" not in top:
@@ -216,7 +219,8 @@ class _SpecReader(Reader):
         if isinstance(node, yaml.SequenceNode):
             value = [self._slot_value(item, KEYS["radar.settings"]) for item in node.value]
         else:
-            value = self.drawn(node, KEYS["radar.settings"]._replace(path=f"radar.settings.{form}.{slot}"), self._slot_value)
+            value = self.drawn(node, KEYS["radar.settings"]._replace(path=f"radar.settings.{form}.{slot}"),
+                               self._slot_value)
         if value is not None:
             self.plan.settings.append(Setting(form, slot, value, at.start_mark.line + 1))
 
@@ -275,21 +279,24 @@ class _SpecReader(Reader):
                 if value is not None:
                     setattr(scene, name, value)
             if values and ("file" in values) == ("generate" in values):
-                self.fault(item, "one of file and generate in an entry of scenes", "both" if "file" in values else "neither")
+                self.fault(item, "one of file and generate in an entry of scenes",
+                           "both" if "file" in values else "neither")
             if "generate" in values and "at" not in values:
                 self.fault(item, "the key at with a made-up scene", "none", "add at: [LATITUDE, LONGITUDE]")
             self.plan.scenes.append(scene)
 
     def _targets(self, node):
         for item in self.items(node, "a list of targets"):
-            values = self._complete(self.values(item, "targets", names=set(children("targets")) - {"area", "scenes"}), "targets")
+            values = self._complete(self.values(item, "targets", names=set(children("targets")) - {"area", "scenes"}),
+                                    "targets")
             if "area" in values:
                 values["area"] = self._place(values["area"], "targets.area", 4)
             if "scenes" in values:
                 values["scenes"] = self._scene_numbers(values["scenes"])
             kinds = [name for name in ("area", "scenes", "objects") if name in values]
             if len(kinds) != 1:
-                self.fault(item, "one of area, scenes and objects in an entry of targets", " and ".join(kinds) or "none")
+                self.fault(item, "one of area, scenes and objects in an entry of targets",
+                           " and ".join(kinds) or "none")
             if "on" in values and "area" not in values:
                 self.fault(item, "the key area in an entry with the key on", "none")
             if "objects" in values and not self.plan.scenes and self.root is not None and not self._has("scenes"):
@@ -306,7 +313,8 @@ class _SpecReader(Reader):
             return "all"
         nodes = node.value if isinstance(node, yaml.SequenceNode) else [node]
         most = len(self.plan.scenes) - 1
-        expected = f"all, or numbers of scenes in [0, {most}], for targets.scenes" if most >= 0 else "scenes in the specification"
+        expected = (f"all, or numbers of scenes in [0, {most}], for targets.scenes" if most >= 0 else
+                    "scenes in the specification")
         return [self.number(item, expected, True, 0, most) for item in nodes]
 
     def _geometry(self, node):
@@ -352,8 +360,9 @@ def read_spec(path):
     """Reads and checks a specification. Raises SpecError with all faults of the file, or with why it cannot be read."""
     try:
         if not stat.S_ISREG(os.stat(path).st_mode):
-            raise SpecError(f"{path}: expected a specification, found {'a folder' if os.path.isdir(path) else 'no regular file'}; give the path of "
-                            "a file: each process of a run reads it")
+            raise SpecError(f"{path}: expected a specification, found "
+                            f"{'a folder' if os.path.isdir(path) else 'no regular file'}; give the path of a file: "
+                            "each process of a run reads it")
         with open(path, "rb") as file:
             data = file.read(MOST_BYTES + 1)
     except OSError as error:

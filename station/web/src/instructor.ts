@@ -16,7 +16,8 @@ const input = (id: string): HTMLInputElement => element<HTMLInputElement>(id);
 const number = (id: string): number => input(id).valueAsNumber;
 
 const groundOf = (above_ft: number | null): string =>
-  above_ft === null ? "no terrain below" : above_ft < 0 ? "below the ground" : `${Math.round(above_ft)} ft above the ground`;
+  above_ft === null ? "no terrain below"
+    : above_ft < 0 ? "below the ground" : `${Math.round(above_ft)} ft above the ground`;
 
 class InstructorPage {
   private readonly connection: Connection;
@@ -76,12 +77,18 @@ class InstructorPage {
   private showPlaces(): void {
     const points = this.state?.world?.points ?? [];
     const { scenes, beacons } = this.theatre ?? { scenes: [], beacons: [] };
-    this.places = [...scenes, ...points.map((point) => ({ name: `sequence point ${point.name}`, lat: point.latitude_deg, lon: point.longitude_deg })),
-      ...beacons.map((beacon) => ({ ...beacon, name: `beacon ${beacon.name || beacon.code}` }))];
+    this.places = [
+      ...scenes,
+      ...points.map((point) =>
+        ({ name: `sequence point ${point.name}`, lat: point.latitude_deg, lon: point.longitude_deg })),
+      ...beacons.map((beacon) => ({ ...beacon, name: `beacon ${beacon.name || beacon.code}` })),
+    ];
     const names = this.places.map(({ name }) => name);
-    fill("places", names.join(), () => [new Option("a place or a point", ""), ...names.map((name, at) => new Option(name, String(at)))]);
+    fill("places", names.join(), () =>
+      [new Option("a place or a point", ""), ...names.map((name, at) => new Option(name, String(at)))]);
     const selected = this.state?.sequence_point ?? "";
-    fill("points", `${points.map(({ name }) => name).join()} ${selected}`, () => points.map(({ name }) => new Option(name === selected ? `${name} (selected)` : name, name, false, name === selected)));
+    fill("points", `${points.map(({ name }) => name).join()} ${selected}`, () => points.map(({ name }) =>
+      new Option(name === selected ? `${name} (selected)` : name, name, false, name === selected)));
   }
   private goToPlace(): void {
     const places = element<HTMLSelectElement>("places");
@@ -119,7 +126,8 @@ class InstructorPage {
 
   private listenToTime(): void {
     onClick("run", () => this.toggleRunning());
-    element("rate").addEventListener("change", () => void this.order("rate", { rate: Number(element<HTMLSelectElement>("rate").value) }));
+    element("rate").addEventListener("change", () =>
+      void this.order("rate", { rate: Number(element<HTMLSelectElement>("rate").value) }));
     onSubmit("step_form", () => void this.order("step", { ticks: number("ticks") }));
     Object.assign(input("time"), { min: "0", max: String(LATEST_SIM_TIME_S), step: "any" });
     onSubmit("reset_form", () => void this.order("reset", { time: number("time") }));
@@ -128,23 +136,28 @@ class InstructorPage {
   // Presses in quick succession alternate, also before the state has the effect of the first.
   private toggleRunning(): void {
     const now = performance.now();
-    const running = this.toggled && now - this.toggled.at < TOGGLE_MS ? this.toggled.running : this.state?.clock.running;
+    const running = this.toggled && now - this.toggled.at < TOGGLE_MS
+      ? this.toggled.running : this.state?.clock.running;
     this.toggled = { running: !running, at: now };
     void this.order(running ? "freeze" : "run");
   }
 
   private listenToAircraft(): void {
-    for (const [id, field] of Object.entries({ lat: "latitude", lon: "longitude", alt: "altitude", heading: "heading", speed: "speed" } as const))
+    for (const [id, field] of Object.entries({
+      lat: "latitude", lon: "longitude", alt: "altitude", heading: "heading", speed: "speed",
+    } as const))
       limit(input(id), FIELDS.Reposition[field]);
     element("aircraft_form").addEventListener("input", () => { this.typed = true; });
     onClick("copy", () => {
       this.typed = false;
       this.showAircraftForm();
     });
-    onSubmit("aircraft_form", () => void this.reposition({ lat: number("lat"), lon: number("lon") }, number("alt"), number("heading"))
+    onSubmit("aircraft_form", () => void this
+      .reposition({ lat: number("lat"), lon: number("lon") }, number("alt"), number("heading"))
       .then(({ problem }) => { if (problem === null) this.typed = false; }));
     onSubmit("steer_form", () => this.connection.event(`sp ${element<HTMLSelectElement>("points").value}`));
-    onSubmit("nav_form", () => this.connection.event(`nav error ${element<HTMLSelectElement>("navigator").value} ${number("north")} ${number("east")}`));
+    onSubmit("nav_form", () => this.connection.event(
+      `nav error ${element<HTMLSelectElement>("navigator").value} ${number("north")} ${number("east")}`));
   }
   // The present values, until the instructor types others.
   private showAircraftForm(): void {
@@ -157,7 +170,8 @@ class InstructorPage {
   }
   private reposition(to: Position, alt_ft: number, heading: number): Promise<Answer> {
     const speed = number("speed");
-    return this.order("reposition", { lat: to.lat, lon: to.lon, alt_ft, heading, speed_kt: Number.isNaN(speed) ? null : speed });
+    return this.order("reposition",
+      { lat: to.lat, lon: to.lon, alt_ft, heading, speed_kt: Number.isNaN(speed) ? null : speed });
   }
 
   private move(thing: Thing, to: Position): void {
@@ -168,7 +182,8 @@ class InstructorPage {
 
   private listenToSet(): void {
     const fidelity = element<HTMLSelectElement>("fidelity");
-    fidelity.addEventListener("change", () => void this.order("fidelity", { preset: fidelity.value === this.theatre?.fidelity ? "" : fidelity.value }));
+    fidelity.addEventListener("change", () => void this.order("fidelity",
+      { preset: fidelity.value === this.theatre?.fidelity ? "" : fidelity.value }));
     onClick("record", () => {
       if (this.state?.status?.recorder) this.connection.event("pb 12");
       else void this.order("record");
@@ -188,17 +203,23 @@ class InstructorPage {
     this.state = state;
     this.map.update(state);
     const { clock, aircraft } = state;
-    say("clock", `${clock.sim_time.toFixed(1)} s, ${clock.running ? "runs" : "frozen"}${clock.rate === 1 ? "" : `, rate ${clock.rate}`}`);
+    say("clock", `${clock.sim_time.toFixed(1)} s, ${clock.running ? "runs" : "frozen"}${
+      clock.rate === 1 ? "" : `, rate ${clock.rate}`}`);
     say("run", clock.running ? "Freeze" : "Run");
     say("step", clock.running ? "Freeze and step" : "Step");
     const rate = element<HTMLSelectElement>("rate");
     if (document.activeElement !== rate) rate.value = String(clock.rate);
     say("flight", aircraft
-      ? `${aircraft.lat.toFixed(4)}, ${aircraft.lon.toFixed(4)} · ${Math.round(aircraft.alt_ft)} ft · heading ${Math.round(aircraft.heading_deg) % 360} · ${Math.round(aircraft.speed_kt)} kt · ${groundOf(aircraft.above_ground_ft)}`
+      ? `${aircraft.lat.toFixed(4)}, ${aircraft.lon.toFixed(4)} · ${Math.round(aircraft.alt_ft)} ft · heading ${
+        Math.round(aircraft.heading_deg) % 360} · ${Math.round(aircraft.speed_kt)} kt · ${
+        groundOf(aircraft.above_ground_ft)}`
       : "no position: no flight model runs");
     if (!element("aircraft_form").contains(document.activeElement)) this.showAircraftForm();
     const errors = state.navigators;
-    say("errors", errors ? `MN ${errors.mission.north_ft.toFixed(0)} ft north, ${errors.mission.east_ft.toFixed(0)} ft east · INS ${errors.ins.north_ft.toFixed(0)} ft north, ${errors.ins.east_ft.toFixed(0)} ft east` : "unknown");
+    say("errors", errors
+      ? `MN ${errors.mission.north_ft.toFixed(0)} ft north, ${errors.mission.east_ft.toFixed(0)} ft east · INS ${
+        errors.ins.north_ft.toFixed(0)} ft north, ${errors.ins.east_ft.toFixed(0)} ft east`
+      : "unknown");
     this.world.show(state);
     this.showPlaces();
     this.showSet(state);
@@ -214,10 +235,12 @@ class InstructorPage {
     }));
     const mortal = roles.filter(({ can_kill }) => can_kill).map(({ name }) => name);
     const chosen = element<HTMLSelectElement>("kill_role").value;
-    fill("kill_role", mortal.join(), () => [new Option("choose a role", ""), ...mortal.map((name) => new Option(name, name, false, name === chosen))]);
+    fill("kill_role", mortal.join(), () =>
+      [new Option("choose a role", ""), ...mortal.map((name) => new Option(name, name, false, name === chosen))]);
     const { rows } = element<HTMLTableSectionElement>("roles");
     roles.forEach((role, at) => {
-      const core = role.pid === 0 ? "not running" : role.hangs ? "hangs" : role.load === null ? "-" : `${(100 * role.load).toFixed(0)} %`;
+      const core = role.pid === 0 ? "not running"
+        : role.hangs ? "hangs" : role.load === null ? "-" : `${(100 * role.load).toFixed(0)} %`;
       for (const [cell, text] of [[1, core], [2, String(role.restarts)]] as const)
         if (rows[at].cells[cell].textContent !== text) rows[at].cells[cell].textContent = text;
     });
@@ -228,21 +251,25 @@ class InstructorPage {
     const { fidelity } = state;
     const configured = this.theatre?.fidelity ?? fidelity.used;
     const choices = [...new Set([configured, ...PRESETS])];
-    fill("fidelity", choices.join(), () => choices.map((name) => new Option(name === configured ? `${name} (configured)` : name, name)));
+    fill("fidelity", choices.join(), () =>
+      choices.map((name) => new Option(name === configured ? `${name} (configured)` : name, name)));
     const dial = element<HTMLSelectElement>("fidelity");
     if (document.activeElement !== dial) dial.value = fidelity.wanted || configured;
     say("fidelity_error", `in use: ${fidelity.used}. Error: ${wordsOfPreset(fidelity.used)}`);
     if (!status) return;
     const { reasons } = status.health;
     const [first] = (reasons[0] ?? "").split(";");
-    say("health", status.health.state === "OK" ? "OK" : `${status.health.state}: ${first}${reasons.length > 1 ? ` (and ${reasons.length - 1} more)` : ""}`);
+    say("health", status.health.state === "OK"
+      ? "OK" : `${status.health.state}: ${first}${reasons.length > 1 ? ` (and ${reasons.length - 1} more)` : ""}`);
     element("health").title = reasons.join("\n");
     element("health").classList.toggle("bad", status.health.state !== "OK");
     this.showRoles(status.roles);
     const { recorder } = status;
     this.machine.showRecorder(recorder ? (recorder.writing ? "writes" : "paused") : "none");
     say("record", recorder ? (recorder.writing ? "Pause recording" : "Go on recording") : "Record");
-    say("recorder", recorder ? recorder.problem ?? `${recorder.writing ? "writes" : "paused"}, ${(recorder.bytes / 1e6).toFixed(1)} MB` : "no recorder runs");
+    say("recorder", recorder
+      ? recorder.problem ?? `${recorder.writing ? "writes" : "paused"}, ${(recorder.bytes / 1e6).toFixed(1)} MB`
+      : "no recorder runs");
     const { notes } = status;
     fill("notes", JSON.stringify(notes), () => notes.map(({ sim_time, process, text }) => {
       const row = document.createElement("li");

@@ -57,15 +57,24 @@ export interface World {
   sea_state: number | null; wind_kt: number; wind_from_deg: number; configured: boolean;
   rain: Rain[]; jammers: Jammer[]; movers: Mover[]; points: SequencePoint[];
 }
-export interface PatchEntry { id: number; lat: number; lon: number; window_nm: number; up_deg: number; size: number; corners: [number, number][] }
+export interface PatchEntry {
+  id: number; lat: number; lon: number; window_nm: number; up_deg: number; size: number; corners: [number, number][];
+}
 export interface RoleEntry {
-  name: string; pid: number; load: number | null; heartbeat_ms: number | null; hangs: boolean; restarts: number; can_kill: boolean;
+  name: string; pid: number; load: number | null; heartbeat_ms: number | null; hangs: boolean; restarts: number;
+  can_kill: boolean;
 }
 export interface InstructorState {
   session: string;
   clock: { sim_time: number; running: boolean; rate: number; epoch: number };
-  aircraft: { lat: number; lon: number; alt_ft: number; above_ground_ft: number | null; heading_deg: number; track_deg: number; speed_kt: number } | null;
-  scan: { scanning: boolean; frozen: boolean; centre_deg: number; width_deg: number; range_nm: number; beam_deg: number | null } | null;
+  aircraft: {
+    lat: number; lon: number; alt_ft: number; above_ground_ft: number | null; heading_deg: number; track_deg: number;
+    speed_kt: number;
+  } | null;
+  scan: {
+    scanning: boolean; frozen: boolean; centre_deg: number; width_deg: number; range_nm: number;
+    beam_deg: number | null;
+  } | null;
   patches: PatchEntry[];
   forming: { progress: number | null; corners: [number, number][] } | null;
   world: World | null;
@@ -80,12 +89,17 @@ export interface InstructorState {
   } | null;
 }
 export interface NavigatorError { north_ft: number; east_ft: number }
-export interface SetEntry { session: string; kind: "replay" | "branch" | "recorder"; file: string; at: number; ended: string | null }
+export interface SetEntry {
+  session: string; kind: "replay" | "branch" | "recorder"; file: string; at: number; ended: string | null;
+}
 export interface Recording {
-  file: string; begin_s: number | null; end_s: number | null; bytes: number; sweeps: boolean; maps: boolean; can_fly_out: boolean;
+  file: string; begin_s: number | null; end_s: number | null; bytes: number; sweeps: boolean; maps: boolean;
+  can_fly_out: boolean;
   writing: boolean; cut_short: boolean; // cut short: nobody writes it, and no recorder closed it
 }
-export interface Answer { answer: number; problem: string | null; session?: string; recordings?: Recording[]; left_out?: number }
+export interface Answer {
+  answer: number; problem: string | null; session?: string; recordings?: Recording[]; left_out?: number;
+}
 export interface Theatre {
   radar: string; fidelity: string;
   beacons: { name: string; lat: number; lon: number; code: number }[];

@@ -24,7 +24,8 @@ export const addressOfPage = (page: string, session: string): string => (session
 
 // Leads the links to the other pages to the session of this one.
 export function keepSession(session: string): void {
-  for (const link of document.querySelectorAll<HTMLAnchorElement>(".page_link")) link.href = addressOfPage(link.getAttribute("href") ?? "", session);
+  for (const link of document.querySelectorAll<HTMLAnchorElement>(".page_link"))
+    link.href = addressOfPage(link.getAttribute("href") ?? "", session);
 }
 
 // Gives an input the limits and the purpose of a value.

@@ -6,10 +6,40 @@ export interface Field {
   name: string; label: string; unit: string; min: number; max: number; purpose: string; otherwise: string;
 }
 
-export interface Rain { id: number; latitude_deg: number; longitude_deg: number; radius_nm: number; rate_mmh: number; top_ft: number }
-export interface JammerValues { id: number; name: string; latitude_deg: number; longitude_deg: number; altitude_ft: number | null; power_w: number }
-export interface Mover { id: number; name: string; latitude_deg: number; longitude_deg: number; speed_kt: number; heading_deg: number; cross_section_m2: number; height_ft: number }
-export interface SequencePoint { id: number; latitude_deg: number; longitude_deg: number; elevation_ft: number | null; name: string; kind: string }
+export interface Rain {
+  id: number;
+  latitude_deg: number;
+  longitude_deg: number;
+  radius_nm: number;
+  rate_mmh: number;
+  top_ft: number;
+}
+export interface JammerValues {
+  id: number;
+  name: string;
+  latitude_deg: number;
+  longitude_deg: number;
+  altitude_ft: number | null;
+  power_w: number;
+}
+export interface Mover {
+  id: number;
+  name: string;
+  latitude_deg: number;
+  longitude_deg: number;
+  speed_kt: number;
+  heading_deg: number;
+  cross_section_m2: number;
+  height_ft: number;
+}
+export interface SequencePoint {
+  id: number;
+  latitude_deg: number;
+  longitude_deg: number;
+  elevation_ft: number | null;
+  name: string;
+  kind: string;
+}
 
 export const FIELDS = {
   WorldRainCell: {

@@ -9,12 +9,15 @@ import { Field, FIELDS } from "./values";
 const KINDS: Record<string, string> = { rain: "rain", jammers: "jammer", movers: "mover", points: "sequence point" };
 
 // Values of a thing that the page edits: all but its position, and the names of sequence points.
-const edited = (values: Record<string, Field>): Field[] => Object.values(values).filter(({ name }) => !name.endsWith("itude_deg"));
+const edited = (values: Record<string, Field>): Field[] =>
+  Object.values(values).filter(({ name }) => !name.endsWith("itude_deg"));
 const FORMS: Record<string, Field[]> = {
-  rain: edited(FIELDS.WorldRainCell), jammers: edited(FIELDS.WorldJammer), movers: edited(FIELDS.WorldMover), points: edited(FIELDS.WorldPoint),
+  rain: edited(FIELDS.WorldRainCell), jammers: edited(FIELDS.WorldJammer), movers: edited(FIELDS.WorldMover),
+  points: edited(FIELDS.WorldPoint),
 };
 const NAME_PATTERN = "[1-9][0-9]{0,2}([.][0-9]{0,2})?"; // of a sequence point
-const NAME_HINT = "Name: 7 is a steer point, 7. a target, 7.1 an offset, 7.01 an offset of a target. The radar draws the five nearest and the selected one";
+const NAME_HINT = "Name: 7 is a steer point, 7. a target, 7.1 an offset, 7.01 an offset of a target. " +
+  "The radar draws the five nearest and the selected one";
 
 // Input of a value, with what the thing has.
 function inputOf(field: Field, value: unknown): HTMLInputElement {
@@ -25,7 +28,8 @@ function inputOf(field: Field, value: unknown): HTMLInputElement {
   return made;
 }
 function nameInput(value: unknown): HTMLInputElement {
-  return Object.assign(document.createElement("input"), { id: "thing_name", required: true, pattern: NAME_PATTERN, size: 6, defaultValue: String(value ?? "") });
+  return Object.assign(document.createElement("input"),
+    { id: "thing_name", required: true, pattern: NAME_PATTERN, size: 6, defaultValue: String(value ?? "") });
 }
 function labelled(text: string, made: HTMLInputElement): HTMLLabelElement {
   const label = document.createElement("label");
@@ -46,7 +50,8 @@ export class WorldPanel {
   private chosen: Thing | undefined;
 
   // `order` sends a command; `moved`: the map shows another place.
-  constructor(private readonly map: TheatreMap, private readonly order: (name: string, values?: object) => Promise<Answer>,
+  constructor(
+    private readonly map: TheatreMap, private readonly order: (name: string, values?: object) => Promise<Answer>,
     private readonly moved: () => void) {
     for (const kind of LISTS) onClick(`add_${kind}`, () => this.beginAdding(kind));
     onClick("add_middle", () => this.add(this.map.middle()));
@@ -70,7 +75,8 @@ export class WorldPanel {
   // Sends what the user has changed of the chosen thing: a text, a number, or null for an empty field of numbers.
   private async change(): Promise<void> {
     if (!this.chosen) return;
-    const changed = [...element("thing_form").querySelectorAll("input")].filter((field) => field.value !== field.defaultValue);
+    const changed = [...element("thing_form").querySelectorAll("input")]
+      .filter((field) => field.value !== field.defaultValue);
     const valueOf = ({ type, value, valueAsNumber }: HTMLInputElement): string | number | null =>
       type !== "number" ? value : value === "" ? null : valueAsNumber;
     const values = Object.fromEntries(changed.map((field) => [field.id.replace("thing_", ""), valueOf(field)]));
@@ -108,17 +114,20 @@ export class WorldPanel {
   private async remove(thing: Thing): Promise<void> {
     const item = { list: thing.kind, item: thing.id };
     const { problem } = await this.order("remove", item);
-    if (problem === null) this.undo.offer({ text: `Removed ${thing.name}`, restored: `${thing.name} is back`, undo: () => this.order("restore", item) });
+    if (problem === null) this.undo.offer(
+      { text: `Removed ${thing.name}`, restored: `${thing.name} is back`, undo: () => this.order("restore", item) });
   }
   private async reset(): Promise<void> {
     const { problem } = await this.order("reset world");
-    if (problem === null) this.undo.offer({ text: "Reset the world", restored: "The changed world is back", undo: () => this.order("undo reset") });
+    if (problem === null) this.undo.offer(
+      { text: "Reset the world", restored: "The changed world is back", undo: () => this.order("undo reset") });
   }
 
   // What was offered belongs to a station that may be gone.
   forgetRemovals(): void { this.undo.forget(); }
 
-  // What was chosen on the map or in the list. Its form is shown where the panel scrolls by itself; below a map it waits.
+  // What was chosen on the map or in the list. Its form is shown where the panel scrolls by itself; below a map it
+  // waits.
   choose(thing: Thing | undefined): void {
     this.chosen = thing;
     this.map.chosen = thing;
@@ -128,9 +137,11 @@ export class WorldPanel {
     const entries: readonly { id: number }[] = this.state?.world?.[thing.kind] ?? [];
     const entry = entries.find(({ id }) => id === thing.id) as Record<string, unknown> | undefined;
     const fields = FORMS[thing.kind], isPoint = thing.kind === "points";
-    const rows = fields.map((field) => labelled(`${field.label} [${field.unit.replace("m2", "m²")}]`, inputOf(field, entry?.[field.name])));
+    const rows = fields.map((field) =>
+      labelled(`${field.label} [${field.unit.replace("m2", "m²")}]`, inputOf(field, entry?.[field.name])));
     if (isPoint) rows.unshift(labelled("Name", nameInput(entry?.name)));
-    const hints = fields.filter(({ otherwise }) => otherwise !== "").map(({ label, purpose, otherwise }) => noteOf(`${label}: ${purpose}; empty: ${otherwise}`));
+    const hints = fields.filter(({ otherwise }) => otherwise !== "")
+      .map(({ label, purpose, otherwise }) => noteOf(`${label}: ${purpose}; empty: ${otherwise}`));
     if (isPoint) hints.unshift(noteOf(NAME_HINT));
     const submit = document.createElement("button");
     submit.id = "change_thing";
@@ -156,7 +167,8 @@ export class WorldPanel {
       this.chosen = present;
       say("change_thing", `Change ${present.name}`);
     }
-    fill("things", things.map(({ kind, id, name }) => `${kind} ${id} ${name}`).join(), () => things.map((thing) => this.row(thing)));
+    fill("things", things.map(({ kind, id, name }) => `${kind} ${id} ${name}`).join(),
+      () => things.map((thing) => this.row(thing)));
   }
 
   private row(thing: Thing): HTMLLIElement {

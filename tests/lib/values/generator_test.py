@@ -57,8 +57,10 @@ class TheParser(unittest.TestCase):
     def test_reads_types_units_ranges_and_comments(self):
         place = schema.records_of(chapters_of(GOOD))[0]
         latitude, height, count, gear, reserved, looks, names, marks = place.fields
-        self.assertEqual((latitude.unit, latitude.minimum.value, latitude.maximum.value, latitude.doc), ("deg", -90.0, 90.0, ["WGS84"]))
-        self.assertEqual((height.nan, height.heading, height.doc), ("unknown", ["What is optional."], ["above mean sea level"]))
+        self.assertEqual((latitude.unit, latitude.minimum.value, latitude.maximum.value, latitude.doc),
+                         ("deg", -90.0, 90.0, ["WGS84"]))
+        self.assertEqual((height.nan, height.heading, height.doc),
+                         ("unknown", ["What is optional."], ["above mean sea level"]))
         self.assertEqual((gear.type.name, gear.size, reserved.reserved, looks.default.value), ("Gear", 1, True, 2))
         self.assertEqual((names.size, schema.type_text(names), marks.counted_by), (32, "char[4][8]", "count"))
         self.assertEqual([field.offset for field in place.fields], [0, 8, 16, 20, 21, 24, 32, 64])
@@ -73,7 +75,8 @@ class TheParser(unittest.TestCase):
 
     def test_says_what_it_expected_and_found(self):
         self.refuses(changed("uint32 count;", "uint32 count"), "records.idl:15: expected ';', found 'Gear'")
-        self.refuses(changed("uint32 count;", "uint count;"), "or the name of an enumeration, bit mask or record, found 'uint'; declare")
+        self.refuses(changed("uint32 count;", "uint count;"),
+                     "or the name of an enumeration, bit mask or record, found 'uint'; declare")
         self.refuses(changed("@final\n", ""), "expected @final or @request at Place, found none")
         self.refuses(changed("  @bit_bound(8)\n", ""), "expected @bit_bound(8), (16), (32) or (64), found none")
         self.refuses(changed("Gear_up", "up"), "expected a value named Gear_..., found 'up'")
@@ -81,36 +84,49 @@ class TheParser(unittest.TestCase):
         self.refuses(changed("};\n", "}\n"), "expected ';', found")
         self.refuses(changed("const uint32", "const $"), "records.idl:3: expected IDL, found '$'")
         self.refuses(changed("kMost = 4", "kMost = kLeast"), "found 'kLeast'; declare it above")
-        self.refuses('#include "absent.idl"\n', "records.idl:1: expected the name of a file beside records.idl, found 'absent.idl'")
+        self.refuses('#include "absent.idl"\n',
+                     "records.idl:1: expected the name of a file beside records.idl, found 'absent.idl'")
 
     def test_refuses_names_that_idl_does_not_tell_apart(self):
-        self.refuses(changed("struct Place", "struct GEAR"), "expected a new name in module yars, found 'GEAR' beside 'Gear'")
+        self.refuses(changed("struct Place", "struct GEAR"),
+                     "expected a new name in module yars, found 'GEAR' beside 'Gear'")
         self.refuses(changed("uint32 count;", "uint32 count, Count;"), "expected one Count in Place, found two")
 
     def test_refuses_a_range_that_cannot_hold(self):
-        self.refuses(changed("min=-90.0, max=90.0", "min=90.0, max=-90.0"), "range of latitude_deg that begins below its end, found [90, -90]")
-        self.refuses(changed("min=0, max=4) uint32", "min=-1, max=4) uint32"), "whole number of uint32, 0 to 4294967295, at count, found -1")
-        self.refuses(changed("min=0, max=4) uint32", "min=0, max=4.5) uint32"), "whole number of uint32, 0 to 4294967295, at count, found 4.5")
-        self.refuses(changed("max=4) uint32", "max=5) uint32"), "expected @range(min=0, max=4), the entries of marks, found [0, 5]")
+        self.refuses(changed("min=-90.0, max=90.0", "min=90.0, max=-90.0"),
+                     "range of latitude_deg that begins below its end, found [90, -90]")
+        self.refuses(changed("min=0, max=4) uint32", "min=-1, max=4) uint32"),
+                     "whole number of uint32, 0 to 4294967295, at count, found -1")
+        self.refuses(changed("min=0, max=4) uint32", "min=0, max=4.5) uint32"),
+                     "whole number of uint32, 0 to 4294967295, at count, found 4.5")
+        self.refuses(changed("max=4) uint32", "max=5) uint32"),
+                     "expected @range(min=0, max=4), the entries of marks, found [0, 5]")
         self.refuses(changed("string<7> names", "@min(1) string<7> names"), "expected a number type for names")
-        self.refuses(changed("@default(2) uint64", "@default(2) @range(min=3, max=4) uint64"), "a default of looks in [3, 4], found 2")
+        self.refuses(changed("@default(2) uint64", "@default(2) @range(min=3, max=4) uint64"),
+                     "a default of looks in [3, 4], found 2")
         self.refuses(changed("@range(min=0, max=4)", "@range(min=0)"), "expected @range with max, found min")
 
     def test_refuses_a_unit_that_the_name_contradicts(self):
-        self.refuses(changed('@unit("deg")', '@unit("rad")'), 'expected @unit("deg") of latitude_deg, whose name has this unit as suffix, found @unit("rad")')
-        self.refuses(changed('@unit("m") @nan', "@nan"), 'expected @unit("m") of height_m, whose name has this unit as suffix, found none')
+        self.refuses(changed('@unit("deg")', '@unit("rad")'),
+                     'expected @unit("deg") of latitude_deg, whose name has this unit as suffix, found @unit("rad")')
+        self.refuses(changed('@unit("m") @nan', "@nan"),
+                     'expected @unit("m") of height_m, whose name has this unit as suffix, found none')
         self.refuses(changed("double height_m", "uint64 height_m"), "expected double or float for @nan of height_m")
 
     def test_refuses_arrays_of_arrays(self):
         self.refuses(changed("uint16 marks[kMost]", "uint16 marks[2][2]"), "expected one dimension at marks, found 2")
 
     def test_refuses_padding(self):
-        self.refuses(changed("reserved[3]", "reserved[2]"), "Place.looks at a multiple of 8 bytes, found offset 23; put 1 reserved")
-        self.refuses(changed('@counted_by("count") uint16', "uint8"), "expected a size of Place that is a multiple of 8 bytes, found 68 bytes")
+        self.refuses(changed("reserved[3]", "reserved[2]"),
+                     "Place.looks at a multiple of 8 bytes, found offset 23; put 1 reserved")
+        self.refuses(changed('@counted_by("count") uint16', "uint8"),
+                     "expected a size of Place that is a multiple of 8 bytes, found 68 bytes")
 
     def test_refuses_a_count_that_counts_nothing(self):
-        self.refuses(changed('counted_by("count")', 'counted_by("number")'), "a whole number with @range named number in Place, found none")
-        self.refuses(changed('uint64 looks', '@cut uint64 looks'), "expected @cut on the last field, an array of bytes with @counted_by")
+        self.refuses(changed('counted_by("count")', 'counted_by("number")'),
+                     "a whole number with @range named number in Place, found none")
+        self.refuses(changed('uint64 looks', '@cut uint64 looks'),
+                     "expected @cut on the last field, an array of bytes with @counted_by")
 
 
 class TheRecordsOfTheTree(unittest.TestCase):
@@ -123,8 +139,10 @@ class TheRecordsOfTheTree(unittest.TestCase):
         for name, c_name in clients.C_NAMES.items():
             body = re.search(r"typedef struct \{\n((?:(?!typedef).)*?)\} " + c_name + ";", header, re.S).group(1)
             found = re.findall(r"^  ([\w]+) (\w+)((?:\[\d+\])*);", body, re.M)
-            expected = [(clients.c_type(field), field.name, schema.type_text(field)) for field in self.records[name].fields]
-            self.assertEqual([(kind, field) for kind, field, _ in found], [(kind, field) for kind, field, _ in expected])
+            expected = [(clients.c_type(field), field.name, schema.type_text(field))
+                        for field in self.records[name].fields]
+            self.assertEqual([(kind, field) for kind, field, _ in found],
+                             [(kind, field) for kind, field, _ in expected])
             for (kind, _, dimensions), (_, _, text) in zip(found, expected):
                 self.assertEqual(dimensions, re.sub(r"^\w+", "", text))
 
@@ -150,7 +168,8 @@ class TheRecordsOfTheTree(unittest.TestCase):
         found = {f"YARS_{prefix}_{value.name}": int(value) for prefix, name in clients.ENUMERATIONS.values()
                  for value in made[name].__members__.values()}
         self.assertEqual(found, in_c)
-        self.assertEqual((in_c["YARS_EVENT_PUSH_BUTTON"], in_c["YARS_RADAR_FREEZE"], in_c["YARS_MODE_PATCH"]), (1, 2, 2))
+        self.assertEqual((in_c["YARS_EVENT_PUSH_BUTTON"], in_c["YARS_RADAR_FREEZE"], in_c["YARS_MODE_PATCH"]),
+                         (1, 2, 2))
 
     def test_a_default_becomes_an_initialiser(self):
         place = schema.records_of(chapters_of(GOOD))[0]
@@ -158,13 +177,15 @@ class TheRecordsOfTheTree(unittest.TestCase):
 
     def test_one_end_of_a_range_is_enough(self):
         chapters = chapters_of(changed("@range(min=-90.0, max=90.0) double", "@min(-90.0) double"))
-        self.assertIn('inspection.range("latitude_deg", record.latitude_deg, -90.0, kInfinity);', cpp.checks_source(chapters))
+        self.assertIn('inspection.range("latitude_deg", record.latitude_deg, -90.0, kInfinity);',
+                      cpp.checks_source(chapters))
 
     def test_a_text_is_checked_entry_by_entry_and_numbers_as_far_as_they_count(self):
         chapters = chapters_of(changed("uint16 marks", "@max(9) uint16 marks"))
         made = cpp.checks_source(chapters)
         self.assertIn('  for (const auto& entry : record.names) {\n    inspection.text("names", entry);\n  }\n', made)
-        self.assertIn('  for (const auto& entry : used(record.marks, record.count)) {\n    inspection.at_most("marks", entry, 9);', made)
+        self.assertIn('  for (const auto& entry : used(record.marks, record.count)) {\n'
+                      '    inspection.at_most("marks", entry, 9);', made)
 
     def test_a_default_of_all_is_zero(self):
         self.assertEqual([field.name for one in self.records.values() for field in one.fields if field.default], [])
@@ -211,17 +232,24 @@ class Requests(unittest.TestCase):
         self.assertIn("std::optional<int> looks;    // 1 to 16: to average; left out: the configuration's", structs)
         self.assertIn("Band band = Band::A;", structs)
         self.assertNotIn("struct Pose", structs)
-        self.assertIn('Field latitude{"latitude_deg", "latitude", "lat", "deg", -90, 90,\n      "of the aircraft", "", {}}', table)
-        self.assertIn('Field looks{"looks", "looks", "looks", "", 1, 16,\n      "to average", "the configuration\'s", {}}', table)
+        self.assertIn('Field latitude{"latitude_deg", "latitude", "lat", "deg", -90, 90,\n'
+                      '      "of the aircraft", "", {}}', table)
+        self.assertIn('Field looks{"looks", "looks", "looks", "", 1, 16,\n'
+                      '      "to average", "the configuration\'s", {}}', table)
         self.assertIn('"of the radar", "", {"A", "B"}}', table)
         self.assertIn("each(looks, entry.looks);", table)
 
     def test_that_contradict_themselves_are_refused(self):
-        for old, new, message in (('@option("lat")', '@option("looks")', "expected one option looks in Look, found two"),
-                                  (' @otherwise("the configuration\'s")', "", "expected @optional with @otherwise at looks, found one of them"),
-                                  ("boolean force;", "boolean force[2];", "expected a number, boolean or enumeration for force"),
-                                  ("@default(37.8)", "@default(97.8)", "expected a default of latitude_deg in [-90, 90], found 97.8"),
-                                  ("@request\n  struct Look", "@request @final\n  struct Look", "expected @final or @request at Look, found both"),
+        for old, new, message in (('@option("lat")', '@option("looks")',
+                                   "expected one option looks in Look, found two"),
+                                  (' @otherwise("the configuration\'s")', "",
+                                   "expected @optional with @otherwise at looks, found one of them"),
+                                  ("boolean force;", "boolean force[2];",
+                                   "expected a number, boolean or enumeration for force"),
+                                  ("@default(37.8)", "@default(97.8)",
+                                   "expected a default of latitude_deg in [-90, 90], found 97.8"),
+                                  ("@request\n  struct Look", "@request @final\n  struct Look",
+                                   "expected @final or @request at Look, found both"),
                                   (": Pose {", ": Place {", "expected the name of a request, found 'Place'")):
             assert old in REQUESTS, old
             with self.assertRaises(schema.IdlError) as caught:
@@ -255,9 +283,12 @@ class WhatPeopleGive(unittest.TestCase):
         self.assertEqual((field.minimum.value, field.shown.low, field.shown.high), (-100.0, -328.0, 328.0))
 
     def test_is_refused_where_it_says_too_little_or_too_much(self):
-        for note, message in (('@shown(unit="ft")', "expected @shown with min and max, or @range, at height_m, found unit"),
-                              ('@shown(unit="kt", min=0.0, max=1.0)', "a unit of @shown that becomes [m], found [kt]; add it to"),
-                              ("@shown(min=0.0, max=1.0, initial=2.0)", "an initial height_m in [0.0, 1.0] m, found 2")):
+        for note, message in (('@shown(unit="ft")',
+                               "expected @shown with min and max, or @range, at height_m, found unit"),
+                              ('@shown(unit="kt", min=0.0, max=1.0)',
+                               "a unit of @shown that becomes [m], found [kt]; add it to"),
+                              ("@shown(min=0.0, max=1.0, initial=2.0)",
+                               "an initial height_m in [0.0, 1.0] m, found 2")):
             with self.assertRaises(schema.IdlError) as caught:
                 self.height(note)
             self.assertIn(message, str(caught.exception))
@@ -294,23 +325,28 @@ class TheIdlForDds(unittest.TestCase):
     def test_has_numbers_for_enumerations_and_bytes_for_texts(self):
         text = dds.idl(chapters_of(GOOD))
         self.assertIn("  const uint32 kMost = 4;\n", text)
-        self.assertIn("  // Values of Gear.\n  const uint8 Gear_up = 0;    // of the aircraft\n  const uint8 Gear_down = 1;", text)
+        self.assertIn("  // Values of Gear.\n  const uint8 Gear_up = 0;    // of the aircraft\n"
+                      "  const uint8 Gear_down = 1;", text)
         self.assertIn("    uint8 gear;       // Gear\n", text)
         self.assertIn("    char names[4][8];\n", text)
 
     def test_keeps_units_ranges_and_meaning_as_comments(self):
         text = dds.idl(chapters_of(GOOD))
         self.assertIn("    double latitude_deg;  // [deg] [-90, 90] WGS84\n", text)
-        self.assertIn("    // What is optional.\n    double height_m;  // [m] above mean sea level; NaN = unknown\n", text)
+        self.assertIn("    // What is optional.\n    double height_m;  // [m] above mean sea level; NaN = unknown\n",
+                      text)
         self.assertIn("    uint16 marks[4];  // the first `count` are in use\n", text)
         self.assertNotIn("@unit", text)
 
     def test_numbers_the_bits_of_a_mask(self):
-        text = dds.idl(chapters_of(GOOD.replace("enum Gear { Gear_up, Gear_down };", "bitmask Gear { @position(0) kUp, @position(3) kDown };")))
-        self.assertIn("  // Bits of Gear.\n  const uint8 kUp = 1;    // of the aircraft\n  const uint8 kDown = 8;", text)
+        text = dds.idl(chapters_of(GOOD.replace("enum Gear { Gear_up, Gear_down };",
+                                                "bitmask Gear { @position(0) kUp, @position(3) kDown };")))
+        self.assertIn("  // Bits of Gear.\n  const uint8 kUp = 1;    // of the aircraft\n  const uint8 kDown = 8;",
+                      text)
 
     def test_has_the_head_of_a_record_whose_last_array_is_cut(self):
-        text = dds.idl(chapters_of(changed('@counted_by("count") uint16 marks', 'uint32 reserved1; @counted_by("count") @cut uint8 marks')))
+        text = dds.idl(chapters_of(changed('@counted_by("count") uint16 marks',
+                                           'uint32 reserved1; @counted_by("count") @cut uint8 marks')))
         head = text.split("struct PlaceHeader {")[1]
         self.assertIn("char names[4][8];", head)
         self.assertNotIn("marks", head)
@@ -327,14 +363,16 @@ class TheIdlForDds(unittest.TestCase):
 
 def layout_of(chapters):
     """A made-up answer of `yars status --layout` with the records of these chapters."""
-    numbers = dict.fromkeys(("count", "stride", "depth", "popped", "records", "slot_count", "slot_stride", "slot_words", "slot_pixels"), 8)
+    numbers = dict.fromkeys(("count", "stride", "depth", "popped", "records", "slot_count", "slot_stride", "slot_words",
+                             "slot_pixels"), 8)
     names = clients.OFFSETS
     return {"version": 3, "size": 4096, "hash": "0123456789abcdef", "offsets": {name: 64 for name in names},
             "containers": {name: {"kind": "LatestValue", "record": "X", **numbers} for name in names},
-            "lock_bytes": dict.fromkeys(("radar-model", "state-machine", "traffic", "tour", "first_ownship_lane", "first_input_lane",
-                                         "first_process"), 1),
-            "records": {one.name: {"size": one.size, "fields": {field.name: [field.offset, field.size] for field in one.fields
-                                                                if not field.reserved}}
+            "lock_bytes": dict.fromkeys(("radar-model", "state-machine", "traffic", "tour", "first_ownship_lane",
+                                         "first_input_lane", "first_process"), 1),
+            "records": {one.name: {"size": one.size,
+                                   "fields": {field.name: [field.offset, field.size] for field in one.fields
+                                              if not field.reserved}}
                         for one in schema.records_of(chapters)}}
 
 
@@ -352,8 +390,9 @@ class TheFilesOfTheTree(unittest.TestCase):
             (self.root / name).write_text(", ".join(self.names))
         (self.root / generate.KEYS).write_text(f"{generate.BEGIN}{generate.END}# {', '.join(self.names)}\n")
         (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
-        (self.root / generate.STUB).write_text(f"# {', '.join(self.names)}\n" + "".join(f"        # begin: lib/values/generate.py, {name}\n        # end: {name}\n"
-                                                       for name in ("ScanRequest", "PatchRequest")))
+        (self.root / generate.STUB).write_text(f"# {', '.join(self.names)}\n" + "".join(
+            f"        # begin: lib/values/generate.py, {name}\n        # end: {name}\n"
+            for name in ("ScanRequest", "PatchRequest")))
         self.program = self.root / "yars"
         self.tell(layout_of(self.chapters))
         self.tree, generate.ROOT = generate.ROOT, self.root
@@ -373,8 +412,9 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.assertIn(message, str(caught.exception))
 
     def test_are_written_and_then_found_fresh(self):
-        self.refuses(generate.StaleError, "python/yars/results.pyi, python/yars/dataset/keys.py, station/web/src/values.ts: "
-                                          "expected what the IDL says, found otherwise; run lib/values/generate.py --write")
+        self.refuses(generate.StaleError,
+                     "python/yars/results.pyi, python/yars/dataset/keys.py, station/web/src/values.ts: expected what "
+                     "the IDL says, found otherwise; run lib/values/generate.py --write")
         self.run_with("--write")
         self.run_with("--check")
         text = (self.root / generate.PYTHON).read_text()
@@ -402,7 +442,8 @@ class TheFilesOfTheTree(unittest.TestCase):
 
     def test_need_their_marks(self):
         (self.root / generate.PYTHON).write_text("nothing\n")
-        self.refuses(generate.StaleError, "python/yars/session.py: expected the lines '# begin: lib/values/generate.py'")
+        self.refuses(generate.StaleError,
+                     "python/yars/session.py: expected the lines '# begin: lib/values/generate.py'")
 
     def test_need_their_lists_of_presets(self):
         (self.root / "config/apg70nd.guf").write_text("draft, fine\n")
@@ -439,7 +480,8 @@ PRESETS = """module yars {
 class Presets(unittest.TestCase):
     def test_become_constants(self):
         made = presets.header(chapters_of(PRESETS)[-1].declarations[0])
-        self.assertIn('std::array<std::string_view, 3> kPresets{\n    "1984",\n    "plain",  // the default\n    "fast",\n};', made)
+        self.assertIn('std::array<std::string_view, 3> kPresets{\n    "1984",\n    "plain",  // the default\n'
+                      '    "fast",\n};', made)
         self.assertIn('std::array<std::string_view, 2> kPresetsOfOnePicture{\n    "plain",\n    "fast",\n};', made)
 
     def test_become_a_type_of_the_pages(self):
@@ -464,11 +506,12 @@ class ALayout(unittest.TestCase):
         return stability.text(chapters, {**layout_of(chapters), "hash": digits})
 
     def test_with_its_hash_keeps_its_fields(self):
-        moved = self.text(changed("    Gear gear;\n    uint8 reserved[3];\n", "    uint8 reserved[3];\n    Gear gear;\n"))
+        moved = self.text(changed("    Gear gear;\n    uint8 reserved[3];\n",
+                                  "    uint8 reserved[3];\n    Gear gear;\n"))
         with self.assertRaises(stability.MovedError) as caught:
             stability.check(self.text(), moved)
-        self.assertIn("Place.gear: expected offset 20, 1 bytes, uint8, as in the layout of the same hash, found offset 23, 1 bytes, "
-                      "uint8; raise the record's version", str(caught.exception))
+        self.assertIn("Place.gear: expected offset 20, 1 bytes, uint8, as in the layout of the same hash, found offset "
+                      "23, 1 bytes, uint8; raise the record's version", str(caught.exception))
         with self.assertRaises(stability.MovedError):
             stability.check(self.text(), self.text(changed("uint64 looks", "int64 looks")))
         with self.assertRaises(stability.MovedError):
