@@ -205,7 +205,7 @@ _TRADES = {maps: Options("yars.trade", (*_TRADE, *more), lists=("knob", "scene",
                          optional=("knob", "csv", "out", "scene", "view", "scene_without"))
            for maps, more in ((False, ("scan_width", "ruler_samples")),
                               (True, ("view", "ruler_size", "scene_without")))}
-_PRESETS = ("1996", "draft", "standard", "fine", "reference")  # of lib/values/presets.idl
+_PRESETS = ("1996", "draft", "standard", "fine", "reference")  # generated
 
 
 @functools.lru_cache(maxsize=None)

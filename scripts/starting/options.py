@@ -8,7 +8,7 @@ from starting import nearest_word
 from starting.command import HERE, NAME, SHARE, end, put, quoted, refuse, shown
 from starting.roles import OF_SET
 
-FIDELITIES = ("1996", "draft", "standard", "fine", "reference")  # of lib/values/presets.idl
+FIDELITIES = ("1996", "draft", "standard", "fine", "reference")  # generated
 OPTIONS = (  # name, value, what it does in lines of --help; --web-OPTION is --OPTION of yars-station
     ("--tour", "[pilot]", "a guided tour over the generated coast, with captions; ends by itself. With pilot it waits\n"
      "at each step until you have done it (docs/tour.md)"),

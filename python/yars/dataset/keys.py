@@ -11,7 +11,7 @@ INFINITY = float("inf")
 Key = collections.namedtuple("Key", "path kind least most unit drawn default text values", defaults=((),))
 
 ARRAYS = ("video", "power", "shadow", "layover", "object", "material", "height", "grazing_angle")
-PRESETS = ("1996", "draft", "standard", "fine", "reference")  # of lib/values/presets.idl
+PRESETS = ("1996", "draft", "standard", "fine", "reference")  # generated
 COMPRESSIONS = ("lz4", "zstd", "none")
 # Groups of sections, in the order of the documentation.
 SECTIONS = ("chip", "radar", "weather", "weather.rain", "terrain.generate", "scenes", "targets", "geometry", "movers",
