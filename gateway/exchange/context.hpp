@@ -39,7 +39,7 @@ struct Context {
   dds::Link* link;  // null only in tests that hand samples to the exchanges
   Hosts& hosts;
   Roles& roles;
-  std::int64_t now_ns = 0;  // CLOCK_MONOTONIC at the begin of the pass
+  std::int64_t now_ns = 0;  // CLOCK_MONOTONIC at the start of the pass
   bool lockstep = false;    // the session runs in lockstep: every tick is exchanged
 
   // As Link::write() and Link::writes(). Without a link every sample counts as written.
