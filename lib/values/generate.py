@@ -106,7 +106,11 @@ def tree_files(chapters, layout, root):
     keys = with_part(KEYS, text_of(root / KEYS), "")
     made[KEYS] = with_part(KEYS, keys, fields.python_values(chapters, requests, keys))
     kinds = preset_kinds()
-    made[PAGES] = fields.typescript(chapters, requests) + presets.typescript(kinds)
+    try:
+        made[PAGES] = fields.typescript(chapters, requests) + presets.typescript(kinds, text_of(root / presets.PAGE))
+    except KeyError as name:
+        raise StaleError(f"{presets.PAGE}: expected a row of the preset {name} in the first table of `Speed against "
+                         "accuracy`, found none; measure it with `yars trade`") from None
     known = presets.names(kinds)
     for name in presets.LISTS:
         text = made[name] if name in made else text_of(root / name)

@@ -72,10 +72,6 @@ int scan_detail(const radar::Fidelity& fidelity, geo::Length range) {
 }
 
 namespace {
-// Expected ratio of a preset's cost to the cost of the next cheaper preset. It is used if no load of the preset has
-// been measured recently. The ratios are the greatest ones in the tables of docs/performance.md.
-constexpr std::array kCostOverLower{1.0, 1.5, 12.0, 140.0};
-static_assert(kCostOverLower.size() == FidelityGovernor::kLadder.size());
 // A finer preset is selected if its expected load is below this fraction of the core share. The margin keeps two
 // presets from alternating at small changes of the load.
 constexpr double kUpgradeMargin = 0.7;
@@ -85,7 +81,7 @@ constexpr int kMaxAge_scans = 120;  // scans after which a measured load is outd
 double FidelityGovernor::expected_load(std::size_t index, double load) const {
   const Measurement& measurement = measurements_[index];
   if (measurement.known && measurement.scans_ago < kMaxAge_scans) return measurement.load;
-  return load * kCostOverLower[index];
+  return load * kLadder[index].cost_over_lower;
 }
 
 void FidelityGovernor::record_load(double load) {

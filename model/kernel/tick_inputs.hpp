@@ -63,9 +63,9 @@ class FidelityGovernor {
   explicit FidelityGovernor(double core_share) : core_share_(core_share) {}
 
   // Presets in ascending order of cost. Those that make a different picture are not included.
-  static constexpr auto kLadder = values::kPresetsOfOnePicture;
+  static constexpr auto kLadder = values::kComparablePresets;
 
-  std::string_view preset() const { return kLadder[preset_index_]; }
+  std::string_view preset() const { return kLadder[preset_index_].name; }
   // Records the load [fraction of a core] of a scan with the current preset, and selects the preset of the next scan.
   void record_load(double load);
 
@@ -73,7 +73,8 @@ class FidelityGovernor {
   double expected_load(std::size_t index, double load) const;
 
   double core_share_;
-  std::size_t preset_index_ = static_cast<std::size_t>(std::ranges::find(kLadder, "standard") - kLadder.begin());
+  std::size_t preset_index_ = static_cast<std::size_t>(
+      std::ranges::find(kLadder, "standard", &values::ComparablePreset::name) - kLadder.begin());
   struct Measurement {
     double load = 0.0;  // load of the preset's last scan
     int scans_ago = 0;  // number of scans since then

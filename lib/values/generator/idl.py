@@ -17,7 +17,8 @@ TOKEN = re.compile(r"""(?P<blank>[ \t\r]+)|(?P<line>\n)|(?P<comment>//[^\n]*)|(?
 ARITHMETIC = {"+": lambda a, b: a + b, "-": lambda a, b: a - b, "*": lambda a, b: a * b}
 ANNOTATIONS = {"final", "nested", "bit_bound", "position", "unit", "range", "min", "max", "default", "nan",
                "counted_by", "cut",
-               "by_hand", "request", "option", "otherwise", "optional", "shown", "different_picture"}
+               "by_hand", "request", "option", "otherwise", "optional", "shown", "different_picture",
+               "parameters", "like", "cost", "wrong_shadow"}
 TYPES = {**schema.INTEGERS, **schema.REALS}
 
 
@@ -206,8 +207,9 @@ class Parser:
             if not word.startswith(name + "_"):
                 raise IdlError(f"{self.scan.name}:{at}", f"a value named {name}_...", f"'{word}'",
                                "IDL's values share one scope")
+            last = self.scan.tokens[self.at - 1].line
             self.is_next(",")
-            values.append((word.removeprefix(name + "_"), self.doc(at, at)))
+            values.append((word.removeprefix(name + "_"), self.doc(at, last)))
             marks[values[-1][0]] = marked
             if self.is_next("}"):
                 break
@@ -305,10 +307,17 @@ class Parser:
                     if self.scan.tokens[self.at + 1].text == "=":
                         key = self.next().text
                         self.at += 1
-                    values[key] = self.next().text[1:-1] if self.token.kind == "string" else self.expression()
+                    values[key] = self.text() if self.token.kind == "string" else self.expression()
                     self.is_next(",")
             notes[name] = values
         return notes
+
+    def text(self):
+        """Adjacent texts are one."""
+        text = ""
+        while self.token.kind == "string":
+            text += self.next().text[1:-1]
+        return text
 
     def annotate(self, field, notes):
         def parameter(name, key=""):

@@ -385,9 +385,10 @@ class TheFilesOfTheTree(unittest.TestCase):
         for name in (generate.PYTHON, generate.HEADER, generate.LAYOUT, generate.KEYS, generate.PAGES):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
         self.names = presets.names(generate.preset_kinds())
-        for name in presets.LISTS:
+        for name in (*presets.LISTS, presets.PAGE):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             (self.root / name).write_text(", ".join(self.names))
+        (self.root / presets.PAGE).write_text(page_of(self.names))
         (self.root / generate.KEYS).write_text(f"{generate.BEGIN}{generate.END}# {', '.join(self.names)}\n")
         (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
         (self.root / generate.STUB).write_text(f"# {', '.join(self.names)}\n" + "".join(
@@ -445,6 +446,10 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.refuses(generate.StaleError,
                      "python/yars/session.py: expected the lines '# begin: lib/values/generate.py'")
 
+    def test_need_a_measurement_of_each_preset(self):
+        (self.root / presets.PAGE).write_text(page_of(self.names[:-1]))
+        self.refuses(generate.StaleError, f"docs/performance.md: expected a row of the preset '{self.names[-1]}'")
+
     def test_need_their_lists_of_presets(self):
         (self.root / "config/apg70nd.guf").write_text("draft, fine\n")
         self.refuses(generate.StaleError, "config/apg70nd.guf: expected a list of the presets " + ', '.join(self.names))
@@ -470,23 +475,51 @@ PRESETS = """module yars {
   @bit_bound(8)
   enum Preset {
     @different_picture Preset_1984,
-    Preset_plain,  // the default
-    Preset_fast
+    @cost(1.0) @wrong_shadow(0.02) Preset_plain,  // the default
+    // with all
+    // effects
+    @cost(2.5) @wrong_shadow(0.01) @parameters("samples=9 "
+                                               "earth=flat")
+    Preset_full,
+    @cost(1.0) @wrong_shadow(0.01) @like("full") @parameters("samples=8") Preset_fast
   };
 };
 """
 
 
-class Presets(unittest.TestCase):
-    def test_become_constants(self):
-        made = presets.header(chapters_of(PRESETS)[-1].declarations[0])
-        self.assertIn('std::array<std::string_view, 3> kPresets{\n    "1984",\n    "plain",  // the default\n'
-                      '    "fast",\n};', made)
-        self.assertIn('std::array<std::string_view, 2> kPresetsOfOnePicture{\n    "plain",\n    "fast",\n};', made)
+def page_of(names):
+    """docs/performance.md with a row of each preset."""
+    return ("# Speed\n\n## Speed against accuracy\nEach\n\n| point | ms a scan | shadow % | power dB | gray |\n" +
+            "| --- | --- | --- | --- | --- |\n" +
+            "".join(f"| {name} | 0.70 / 1.01 @3 | 7.15 / 19.5 @3 | 0 | 136 / 182 @1 |\n" for name in names) + "\nend\n")
 
-    def test_become_a_type_of_the_pages(self):
-        self.assertEqual(presets.typescript(chapters_of(PRESETS)[-1].declarations[0]),
-                         '\nexport type Preset = "1984" | "plain" | "fast";\n')
+
+class Presets(unittest.TestCase):
+    def setUp(self):
+        self.kinds = chapters_of(PRESETS)[-1].declarations[0]
+
+    def test_become_constants(self):
+        made = presets.header(self.kinds)
+        self.assertIn('std::array<std::string_view, 4> kPresets{{\n    "1984",\n    "plain",  // the default\n'
+                      '    "full",   // with all effects\n    "fast",\n}};', made)
+        self.assertIn('std::array<ComparablePreset, 3> kComparablePresets{{\n    {"plain", 1, 0.02},\n'
+                      '    {"full", 2.5, 0.01},\n    {"fast", 1, 0.01},\n}};', made)
+
+    def test_need_their_numbers(self):
+        text = PRESETS.replace("@wrong_shadow(0.02)", "")
+        with self.assertRaisesRegex(schema.IdlError, "@wrong_shadow at Preset_plain"):
+            presets.header(chapters_of(text)[-1].declarations[0])
+
+    def test_set_their_parameters_and_those_of_the_one_that_they_are_like(self):
+        self.assertIn('  if (preset == "full") {\n    fidelity.samples = 9;\n'
+                      '    fidelity.earth = decltype(fidelity.earth)::flat;\n  }\n  if (preset == "fast") {\n'
+                      '    fidelity.samples = 8;\n    fidelity.earth = decltype(fidelity.earth)::flat;\n  }\n}\n',
+                      presets.setter(self.kinds))
+
+    def test_become_a_table_of_the_pages(self):
+        made = presets.typescript(self.kinds, page_of(["1984", "plain", "full", "fast"]))
+        self.assertIn('  "1984": { gray: null, power_db: null, shadow_percent: 7.15, scan_ms: 0.7 },\n'
+                      '  "plain": { gray: 136, power_db: 0, shadow_percent: 7.15, scan_ms: 0.7 },\n', made)
 
     def test_stand_in_lists_that_keep_their_quotes_and_what_is_around_them(self):
         known = ["draft", "coarse", "fine", "exact"]

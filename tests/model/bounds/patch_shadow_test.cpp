@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
+#include "lib/values/presets.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/polar_ground.hpp"
 #include "model/hrm/reference.hpp"
@@ -172,7 +173,7 @@ struct Counts {
   double wrong = 0.0, dark = 0.0, points = 0.0;
 };
 
-Counts compare(const char* preset, const Country& country, double window_nm, terrain::TerrainStore& store) {
+Counts compare(std::string_view preset, const Country& country, double window_nm, terrain::TerrainStore& store) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(preset);
   const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
@@ -207,12 +208,6 @@ Counts compare(const char* preset, const Country& country, double window_nm, ter
   return counts;
 }
 
-struct Bound {
-  const char* preset;
-  double max_wrong;  // maximum fraction of points with wrong light or shadow
-};
-constexpr Bound kBounds[] = {{"reference", 0.001}, {"standard", 0.005}, {"fine", 0.005}, {"draft", 0.02}};
-
 // Compares all presets. Returns the largest fraction of dark points of a map.
 double expect_within_bounds(const Country& country, std::span<const double> windows_nm = kAllWindows_nm) {
   auto store = terrain::open_terrain({country.folder.string(), true});
@@ -220,14 +215,14 @@ double expect_within_bounds(const Country& country, std::span<const double> wind
   if (!store) return 0.0;
   double most_dark = 0.0;
   for (const double window_nm : windows_nm)
-    for (const Bound& bound : kBounds) {
-      const Counts counts = compare(bound.preset, country, window_nm, **store);
+    for (const auto& preset : values::kComparablePresets) {
+      const Counts counts = compare(preset.name, country, window_nm, **store);
       if (counts.points == 0.0) continue;
       const double wrong = counts.wrong / counts.points;
       most_dark = std::max(most_dark, counts.dark / counts.points);
-      EXPECT_LE(wrong, bound.max_wrong) << country.name << ", " << bound.preset << ", " << window_nm << " NM";
-      std::printf("%s, %s, %g NM: %.0f points, %.1f %% dark, %.3f %% differ\n", country.name.c_str(), bound.preset,
-                  window_nm, counts.points, 100.0 * counts.dark / counts.points, 100.0 * wrong);
+      EXPECT_LE(wrong, preset.max_wrong_shadow) << country.name << ", " << preset.name << ", " << window_nm << " NM";
+      std::printf("%s, %s, %g NM: %.0f points, %.1f %% dark, %.3f %% differ\n", country.name.c_str(),
+                  preset.name.data(), window_nm, counts.points, 100.0 * counts.dark / counts.points, 100.0 * wrong);
     }
   return most_dark;
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
+#include "lib/values/presets.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
@@ -86,7 +87,7 @@ struct Ground {
   double posts_m;
 };
 
-Counts compare(const char* preset, const Scan& scan, double range_nm, const Ground& ground) {
+Counts compare(std::string_view preset, const Scan& scan, double range_nm, const Ground& ground) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(preset);
   configuration.fidelity.sub_beams = 1;  // only the middle ray of the beam
@@ -110,21 +111,15 @@ Counts compare(const char* preset, const Scan& scan, double range_nm, const Grou
   return counts;
 }
 
-struct Bound {
-  const char* preset;
-  double max_wrong;  // maximum fraction of samples with wrong light or shadow
-};
-constexpr Bound kBounds[] = {{"reference", 0.001}, {"standard", 0.005}, {"draft", 0.02}};
-
 // Returns the fraction of dark samples, or 0 if no ground is known.
-double expect_within(const Bound& bound, const std::string& name, const Scan& scan, double range_nm,
+double expect_within(const values::ComparablePreset& preset, const std::string& name, const Scan& scan, double range_nm,
                      const Ground& ground) {
-  const Counts counts = compare(bound.preset, scan, range_nm, ground);
+  const Counts counts = compare(preset.name, scan, range_nm, ground);
   if (counts.samples == 0.0) return 0.0;
   const double wrong = counts.wrong / counts.samples;
   const double dark = counts.dark / counts.samples;
-  EXPECT_LE(wrong, bound.max_wrong) << name << ", " << bound.preset << ", " << range_nm << " NM";
-  std::printf("%s, %s, %g NM: %.0f samples, %.1f %% dark, %.3f %% differ\n", name.c_str(), bound.preset, range_nm,
+  EXPECT_LE(wrong, preset.max_wrong_shadow) << name << ", " << preset.name << ", " << range_nm << " NM";
+  std::printf("%s, %s, %g NM: %.0f samples, %.1f %% dark, %.3f %% differ\n", name.c_str(), preset.name.data(), range_nm,
               counts.samples, 100.0 * dark, 100.0 * wrong);
   return dark;
 }
@@ -140,13 +135,13 @@ double expect_within_bounds(const std::string& name, const Scan& scan, const std
   if (!store) return 0.0;
   double most_dark = 0.0;
   for (const double range_nm : ranges_nm)
-    for (const Bound& bound : kBounds) {
+    for (const auto& preset : values::kComparablePresets) {
       const geo::Length range = geo::Length::nautical_miles(range_nm);
       const auto finest = (*store)->prepare({scan.apex, range.metres(), 0});
-      const int detail = kernel::scan_detail(*radar::fidelity_preset(bound.preset), range);
+      const int detail = kernel::scan_detail(*radar::fidelity_preset(preset.name), range);
       const auto served = (*store)->prepare({scan.apex, range.metres(), detail});
       const Ground ground{finest, served, finest->post_spacing_m()};
-      most_dark = std::max(most_dark, expect_within(bound, name, scan, range_nm, ground));
+      most_dark = std::max(most_dark, expect_within(preset, name, scan, range_nm, ground));
     }
   return most_dark;
 }
@@ -224,9 +219,9 @@ void expect_polar_bounds(const std::shared_ptr<const terrain::CellView>& cap, co
   // Post spacing of brute force: the spacing of columns 30 arcminutes from the pole. Nearer the pole it is smaller.
   const Ground ground{cap, cap, kPolarDegree_m / (kPolarColumns - 1) * 0.5 * geo::kRadiansPerDegree};
   for (const double range_nm : ranges_nm)
-    for (const Bound& bound : kBounds) {
+    for (const auto& preset : values::kComparablePresets) {
       const std::string name = "from " + std::to_string(scan.apex.latitude_deg);
-      EXPECT_GT(expect_within(bound, name, scan, range_nm, ground), 0.02);
+      EXPECT_GT(expect_within(preset, name, scan, range_nm, ground), 0.02);
     }
 }
 

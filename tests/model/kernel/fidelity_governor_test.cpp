@@ -1,46 +1,47 @@
 // FidelityGovernor: selects the finest fidelity preset whose load is within a fraction of a core.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
-#include <map>
-#include <string>
+#include <string_view>
 
 #include "model/kernel/tick_inputs.hpp"
 
 namespace yars::model::kernel {
 namespace {
 
-using Loads = std::map<std::string_view, double>;  // by preset [fraction of a core]
-constexpr double kShare = 0.25;                    // limit [fraction of a core]
+constexpr double kShare = 0.25;  // limit [fraction of a core]
+constexpr auto kLadder = FidelityGovernor::kLadder;
 
-// Governor after `scans` scans with these loads.
-FidelityGovernor governor_after(const Loads& loads, int scans = 50) {
-  FidelityGovernor governor(kShare);
-  for (int scan = 0; scan < scans; ++scan) governor.record_load(loads.at(governor.preset()));
-  return governor;
+// Index of the preset after 300 scans: `cheap` presets need the load `low`, the finer ones the load `high`.
+std::size_t selected(FidelityGovernor& governor, std::size_t cheap, double low, double high) {
+  const auto index = [&] {
+    return static_cast<std::size_t>(std::ranges::find(kLadder, governor.preset(), &values::ComparablePreset::name) -
+                                    kLadder.begin());
+  };
+  for (int scan = 0; scan < 300; ++scan) governor.record_load(index() < cheap ? low : high);
+  return index();
 }
 
 TEST(FidelityGovernor, SelectsTheFinestPresetWithinTheShare) {
-  EXPECT_EQ(governor_after({{"draft", 1e-4}, {"standard", 1e-4}, {"fine", 1e-3}, {"reference", 0.01}}).preset(),
-            "reference");
-  EXPECT_EQ(governor_after({{"draft", 1e-3}, {"standard", 4e-3}, {"fine", 0.1}, {"reference", 3.0}}).preset(), "fine");
-  EXPECT_EQ(governor_after({{"draft", 0.01}, {"standard", 0.2}, {"fine", 4.0}, {"reference", 90.0}}).preset(),
-            "standard");
-  EXPECT_EQ(governor_after({{"draft", 0.2}, {"standard", 0.9}, {"fine", 9.0}, {"reference", 90.0}}).preset(), "draft");
+  for (std::size_t cheap = 1; cheap <= kLadder.size(); ++cheap) {
+    FidelityGovernor governor(kShare);
+    EXPECT_EQ(selected(governor, cheap, 1e-4, 0.9), cheap - 1);
+  }
 }
 
 TEST(FidelityGovernor, SelectsTheCoarsestPresetIfNoneIsWithinTheShare) {
-  EXPECT_EQ(governor_after({{"draft", 5.0}, {"standard", 9.0}, {"fine", 90.0}, {"reference", 900.0}}).preset(),
-            "draft");
+  FidelityGovernor governor(kShare);
+  EXPECT_EQ(selected(governor, 0, 0.0, 5.0), 0U);
 }
 
 TEST(FidelityGovernor, DoesNotAlternateBetweenTwoPresets) {
-  const Loads loads{{"draft", 0.001}, {"standard", 0.005}, {"fine", 0.30}, {"reference", 3.0}};
   FidelityGovernor governor(kShare);
   int changes = 0;
-  std::string_view before = governor.preset();
+  const std::string_view first = governor.preset();
+  std::string_view before = first;
   for (int scan = 0; scan < 100; ++scan) {
-    governor.record_load(loads.at(governor.preset()));
+    governor.record_load(governor.preset() == first ? 0.005 : 0.30);
     if (governor.preset() != before) ++changes;
     before = governor.preset();
   }
@@ -50,10 +51,9 @@ TEST(FidelityGovernor, DoesNotAlternateBetweenTwoPresets) {
 
 TEST(FidelityGovernor, SelectsAFinerPresetAgainAfterTheLoadHasFallen) {
   FidelityGovernor governor(kShare);
-  for (int scan = 0; scan < 20; ++scan) governor.record_load(governor.preset() == "fine" ? 0.9 : 0.005);
-  EXPECT_EQ(governor.preset(), "standard");
-  for (int scan = 0; scan < 300; ++scan) governor.record_load(governor.preset() == "fine" ? 0.1 : 0.002);
-  EXPECT_EQ(governor.preset(), "fine");
+  const std::size_t index = selected(governor, kLadder.size() - 2, 0.001, 0.9);
+  EXPECT_EQ(index, kLadder.size() - 3);
+  EXPECT_EQ(selected(governor, kLadder.size() - 1, 0.001, 0.9), index + 1);
 }
 
 TEST(FidelityGovernor, IgnoresALoadThatIsNotFinite) {
