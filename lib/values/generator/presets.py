@@ -6,7 +6,8 @@ from . import comments, schema
 HEADER = "lib/values/presets.hpp"
 # Files of the tree with lists of all presets in code, comments or texts: "draft", "standard", "fine"; draft, standard
 # or fine.
-LISTS = ("config/apg70nd.guf", "python/yars/dataset/keys.py", "python/yars/results.py", "python/yars/results.pyi",
+LISTS = ("config/apg70nd.guf", "docs/configuration/fidelity.md", "python/yars/dataset/keys.py",
+         "python/yars/results.py", "python/yars/results.pyi",
          "radar/yars/radar.hpp", "scripts/starting/options.py", "tests/scripts/tour_start_test.py")
 LIST = re.compile(r'"?\w+"?(?:(?:, | or )"?\w+"?)+')
 FEWEST = 3  # presets in what counts as a list of all
