@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "databuffer/messages/shown_fields.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/receivers.hpp"
@@ -147,6 +148,24 @@ void count_input(Status& status, const Session& session) {
     status.input_sources += here ? 1 : 0;
     status.input_missing += !here && (known >> lane & 1U) != 0 ? 1 : 0;
   }
+}
+
+// Calls of shown_fields(), which exists for records that are in the status.
+template <class Part>
+std::vector<ShownField> fields_of(const Part& part) {
+  if constexpr (requires { shown_fields(*read_valid(part)); })
+    if (const auto record = read_valid(part)) return shown_fields(*record);
+  return {};
+}
+
+std::vector<ShownRecord> records_of(const Session& session, const Status& status) {
+  std::vector<ShownRecord> records;
+  for_each_container([&](const Container& one, auto member) {
+    if (one.status.empty()) return;
+    records.push_back({one.status, {}});
+    if (status.runs(one.writer)) records.back().fields = fields_of(session.layout().*member);
+  });
+  return records;
 }
 
 // ---- health
@@ -295,6 +314,7 @@ Status status_of(const Session& session, const std::string& name) {
   status.named = session.has_name();
   status.network = network_of(session);
   status.roles = roles_of(session, status.network);
+  status.records = records_of(session, status);
   count_input(status, session);
   status.refusals_last_10_s =
       static_cast<std::uint64_t>(layout.counters.refusals.within(kRecently_ns, status.watch.monotonic_ns));

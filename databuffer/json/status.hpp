@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "databuffer/json/participants.hpp"
+#include "databuffer/messages/shown_field.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/session_layout.hpp"
 
@@ -46,6 +47,11 @@ struct TrafficSource {
 enum class Verdict : std::uint8_t { ok, degraded, nothing_runs };
 std::string_view name_of(Verdict verdict);  // "OK", "DEGRADED", "NOTHING RUNS"
 
+struct ShownRecord {  // a container with @status in segment.idl
+  std::string_view name;
+  std::vector<ShownField> fields;  // empty: its writer does not run, or has published no valid record
+};
+
 struct Health {
   Verdict verdict = Verdict::ok;
   std::vector<std::string> reasons;  // sentences, with what to do; empty: OK
@@ -76,6 +82,7 @@ struct Status {
   std::optional<NetworkSummary> network;
   std::vector<RoleLag> lags;
   std::vector<LaneStatus> ownship_lanes;
+  std::vector<ShownRecord> records;
   std::optional<RecorderStatus> recorder;  // nullopt: none runs
   std::optional<FrameStatus> frames;       // nullopt: none was ever published
   std::optional<TrafficSource> traffic;    // nullopt: none

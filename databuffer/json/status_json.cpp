@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <variant>
 
 #include "databuffer/messages/derived_values.hpp"
 #include "databuffer/session/receivers.hpp"
@@ -320,12 +322,25 @@ ordered_json network_json(const std::optional<NetworkSummary>& network) {
           {"topics", topics}};
 }
 
-ordered_json recorder_json(const std::optional<RecorderStatus>& recorder) {
-  if (!recorder) return nullptr;
-  const std::string problem(text_of(recorder->problem));
-  return {{"writing", recorder->writing != 0},
-          {"bytes", recorder->bytes},
-          {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
+ordered_json value_json(const ShownField& field) {
+  return std::visit(
+      [](const auto& value) -> ordered_json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+          return number_or_null(value);
+        else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+          return value.empty() ? ordered_json(nullptr) : ordered_json(value);
+        else
+          return value;
+      },
+      field.value);
+}
+
+void add_records(ordered_json& object, const std::vector<ShownRecord>& records) {
+  for (const ShownRecord& record : records) {
+    ordered_json fields;  // null without any
+    for (const ShownField& field : record.fields) fields[std::string(field.name)] = value_json(field);
+    object[std::string(record.name)] = fields;
+  }
 }
 
 ordered_json frames_json(const std::optional<FrameStatus>& frames) {
@@ -376,7 +391,7 @@ ordered_json status_json(const Status& status) {
                      {"scan", model.scan},
                      {"terrain_bytes", model.terrain_bytes},
                      {"posts_pending", model.posts_pending}};
-  object["recorder"] = recorder_json(status.recorder);
+  add_records(object, status.records);
   object["glass_frames"] = frames_json(status.frames);
   object["traffic"] = status.traffic
                           ? ordered_json{{"holder", status.traffic->pid}, {"entities", status.traffic->entities}}

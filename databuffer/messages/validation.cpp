@@ -12,18 +12,10 @@
 #include "lib/text/plain_text.hpp"
 
 // check_fields() is generated from the ranges in the IDL. This file checks the fields whose range applies only under a
-// condition on another field, such as a flag. The IDL marks these fields with @by_hand.
+// condition on another field, such as a flag, and conditions over several fields. The IDL marks both with @by_hand.
 namespace yars::databuffer {
 
 namespace {
-
-// Validates a record in which no field's range depends on another field.
-template <class Record>
-Refusal validate_fields(const Record& record) {
-  Inspection inspection;
-  check_fields(inspection, record);
-  return inspection.result();
-}
 
 // Checks the cursor. Without kCursorValid its fields may be NaN, but numbers must still be in range.
 void inspect_cursor(Inspection& inspection, const RadarState& state) {
@@ -62,43 +54,11 @@ Refusal validate(const ClockState& clock) {
   return inspection.result();
 }
 
-Refusal validate(const Outputs& outputs) {
-  return validate_fields(outputs);
-}
-
-Refusal validate(const Ownship& ownship) {
-  return validate_fields(ownship);
-}
-
-Refusal validate(const Nav& nav) {
-  return validate_fields(nav);
-}
-
-Refusal validate(const PilotAdvice& advice) {
-  return validate_fields(advice);
-}
-
-Refusal validate(const NetworkStatus& status) {
-  return validate_fields(status);
-}
-
-Refusal validate(const RecorderStatus& status) {
-  return validate_fields(status);
-}
-
 Refusal validate(const Caption& caption) {
   Inspection inspection;
   check_fields(inspection, caption);
   inspection.at_most("step", caption.step, caption.steps);
   return inspection.result();
-}
-
-Refusal validate(const PatchMap& map) {
-  return validate_fields(map);
-}
-
-Refusal validate(const Traffic& traffic) {
-  return validate_fields(traffic);
 }
 
 namespace {
@@ -143,18 +103,6 @@ Refusal validate(const WorldState& world) {
   inspect_ids(inspection, "points", world.points, world.point_count);
   inspect_points(inspection, used(world.points, world.point_count));
   return inspection.result();
-}
-
-Refusal validate(const GlassFrame& frame) {
-  return validate_fields(frame);
-}
-
-Refusal validate(const ModelStatus& status) {
-  return validate_fields(status);
-}
-
-Refusal validate(const Sweep& sweep) {
-  return validate_fields(sweep);
 }
 
 Refusal validate(const ModelTick& tick) {

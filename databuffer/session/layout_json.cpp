@@ -35,12 +35,6 @@ std::string quoted(std::string_view text) {
   return std::string("\"").append(text) + "\"";
 }
 
-std::string object_of(Numbers numbers) {
-  ObjectText object;
-  for (const auto& [name, value] : numbers) object.add(name, value);
-  return object.text();
-}
-
 std::string container_of(std::string_view kind, std::string_view record, Numbers numbers) {
   ObjectText object;
   object.add("kind", quoted(kind));
@@ -49,8 +43,15 @@ std::string container_of(std::string_view kind, std::string_view record, Numbers
   return object.text();
 }
 
-template <class Value>
-std::string latest_value(std::string_view record, std::size_t count = 1) {
+// Text of a container of this type. Containers of no records have none.
+template <class Part>
+struct Described {
+  static std::string text(std::string_view) { return {}; }
+};
+
+template <class T>
+std::string latest_value(std::string_view record, std::size_t count) {
+  using Value = shm::LatestValue<T>;
   return container_of("LatestValue", record,
                       {{"count", count},
                        {"stride", sizeof(Value)},
@@ -63,17 +64,30 @@ std::string latest_value(std::string_view record, std::size_t count = 1) {
                        {"slot_words", 16}});
 }
 
-template <class Ring>
-std::string ring(std::string_view record) {
-  return container_of("BroadcastRing", record,
-                      {{"next", Ring::next_offset()},
-                       {"slots", Ring::slots_offset()},
-                       {"slot_count", Ring::kDepth},
-                       {"slot_stride", Ring::slot_stride()},
-                       {"slot_sequence", 0},
-                       {"slot_used_words", 8},
-                       {"slot_words", 16}});
-}
+template <class T>
+struct Described<shm::LatestValue<T>> {
+  static std::string text(std::string_view record) { return latest_value<T>(record, 1); }
+};
+
+template <class T, std::size_t count>
+struct Described<std::array<shm::LatestValue<T>, count>> {
+  static std::string text(std::string_view record) { return latest_value<T>(record, count); }
+};
+
+template <class T, std::size_t depth>
+struct Described<shm::BroadcastRing<T, depth>> {
+  using Ring = shm::BroadcastRing<T, depth>;
+  static std::string text(std::string_view record) {
+    return container_of("BroadcastRing", record,
+                        {{"next", Ring::next_offset()},
+                         {"slots", Ring::slots_offset()},
+                         {"slot_count", Ring::kDepth},
+                         {"slot_stride", Ring::slot_stride()},
+                         {"slot_sequence", 0},
+                         {"slot_used_words", 8},
+                         {"slot_words", 16}});
+  }
+};
 
 // Container of slots that are found by the id in their first word (picture_pool.hpp).
 template <class Slot>
@@ -86,89 +100,73 @@ std::string pool(std::string_view record, std::size_t count, std::size_t words) 
                        {"slot_pixels", offsetof(Slot, pixels)}});
 }
 
+template <>
+struct Described<decltype(SessionLayout::patches)> {
+  static std::string text(std::string_view) {
+    return pool<PatchSlot>("PatchMap", kPatchSlots, offsetof(PatchSlot, map));
+  }
+};
+
+template <>
+struct Described<decltype(SessionLayout::frames)> {
+  static std::string text(std::string_view) {
+    return pool<FrameSlot>("GlassFrame", kFrameSlots, offsetof(FrameSlot, frame));
+  }
+};
+
+template <>
+struct Described<EventLanes> {
+  static std::string text(std::string_view) {
+    return container_of("InputLanes", "InputEvent",
+                        {{"count", EventLanes::kLanes},
+                         {"stride", EventLanes::lane_stride()},
+                         {"depth", EventLanes::kDepth},
+                         {"pushed", EventLanes::pushed_offset()},
+                         {"dropped", EventLanes::dropped_offset()},
+                         {"source", EventLanes::source_offset()},
+                         {"popped", EventLanes::popped_offset()},
+                         {"records", EventLanes::records_offset()}});
+  }
+};
+
+template <>
+struct Described<decltype(SessionLayout::processes)> {
+  static std::string text(std::string_view) {
+    return container_of("array", "ProcessEntry",
+                        {{"count", kProcesses},
+                         {"stride", sizeof(ProcessEntry)},
+                         {"heartbeat_ns", offsetof(ProcessEntry, heartbeat_ns)},
+                         {"pid", offsetof(ProcessEntry, pid)},
+                         {"name", offsetof(ProcessEntry, name)}});
+  }
+};
+
+template <>
+struct Described<FlightRecorder> {
+  static std::string text(std::string_view) {
+    return container_of("NoteRing", "Note",
+                        {{"total", FlightRecorder::total_offset()},
+                         {"slots", FlightRecorder::slots_offset()},
+                         {"slot_count", FlightRecorder::kDepth},
+                         {"slot_stride", FlightRecorder::slot_stride()},
+                         {"slot_sequence", 0},
+                         {"slot_checksum", 8},
+                         {"slot_words", 16}});
+  }
+};
+
 std::string containers() {
-  using Input = decltype(SessionLayout::input);
-  using Notes = decltype(SessionLayout::notes);
   ObjectText parts;
-  parts.add("clock", latest_value<shm::LatestValue<ClockState>>("ClockState"));
-  parts.add("ownship", latest_value<shm::LatestValue<Ownship>>("Ownship", kOwnshipLanes));
-  parts.add("nav", latest_value<shm::LatestValue<Nav>>("Nav", kOwnshipLanes));
-  parts.add("radar_state", latest_value<shm::LatestValue<RadarState>>("RadarState"));
-  parts.add("model_status", latest_value<shm::LatestValue<ModelStatus>>("ModelStatus"));
-  parts.add("outputs", latest_value<shm::LatestValue<Outputs>>("Outputs"));
-  parts.add("recorder_status", latest_value<shm::LatestValue<RecorderStatus>>("RecorderStatus"));
-  parts.add("caption", latest_value<shm::LatestValue<Caption>>("Caption"));
-  parts.add("advice", latest_value<shm::LatestValue<PilotAdvice>>("PilotAdvice"));
-  parts.add("network_status", latest_value<shm::LatestValue<NetworkStatus>>("NetworkStatus"));
-  parts.add("model_ticks", ring<decltype(SessionLayout::model_ticks)>("ModelTick"));
-  parts.add("applied_events", ring<decltype(SessionLayout::applied_events)>("AppliedEvent"));
-  parts.add("sweeps", ring<decltype(SessionLayout::sweeps)>("Sweep"));
-  parts.add("input", container_of("InputLanes", "InputEvent",
-                                  {{"count", Input::kLanes},
-                                   {"stride", Input::lane_stride()},
-                                   {"depth", Input::kDepth},
-                                   {"pushed", Input::pushed_offset()},
-                                   {"dropped", Input::dropped_offset()},
-                                   {"source", Input::source_offset()},
-                                   {"popped", Input::popped_offset()},
-                                   {"records", Input::records_offset()}}));
-  parts.add("processes", container_of("array", "ProcessEntry",
-                                      {{"count", kProcesses},
-                                       {"stride", sizeof(ProcessEntry)},
-                                       {"heartbeat_ns", offsetof(ProcessEntry, heartbeat_ns)},
-                                       {"pid", offsetof(ProcessEntry, pid)},
-                                       {"name", offsetof(ProcessEntry, name)}}));
-  parts.add("notes", container_of("NoteRing", "Note",
-                                  {{"total", Notes::total_offset()},
-                                   {"slots", Notes::slots_offset()},
-                                   {"slot_count", Notes::kDepth},
-                                   {"slot_stride", Notes::slot_stride()},
-                                   {"slot_sequence", 0},
-                                   {"slot_checksum", 8},
-                                   {"slot_words", 16}}));
-  parts.add("traffic", latest_value<shm::LatestValue<Traffic>>("Traffic"));
-  parts.add("traffic_latched", ring<decltype(SessionLayout::traffic_latched)>("Traffic"));
-  parts.add("world", latest_value<shm::LatestValue<WorldState>>("WorldState"));
-  parts.add("world_configured", latest_value<shm::LatestValue<WorldState>>("WorldState"));
-  parts.add("world_latched", ring<decltype(SessionLayout::world_latched)>("WorldState"));
-  parts.add("world_request", latest_value<shm::LatestValue<WorldState>>("WorldState"));
-  parts.add("patches", pool<PatchSlot>("PatchMap", kPatchSlots, offsetof(PatchSlot, map)));
-  parts.add("frames", pool<FrameSlot>("GlassFrame", kFrameSlots, offsetof(FrameSlot, frame)));
+  for_each_container([&]<class Part>(const Container& one, Part SessionLayout::*) {
+    if (const std::string text = Described<Part>::text(one.record); !text.empty()) parts.add(one.name, text);
+  });
   return parts.text();
 }
 
 std::string offsets() {
-  return object_of({{"lockstep", offsetof(SessionLayout, lockstep)},
-                    {"clock", offsetof(SessionLayout, clock)},
-                    {"ownship_priority", offsetof(SessionLayout, ownship_priority)},
-                    {"ownship", offsetof(SessionLayout, ownship)},
-                    {"nav", offsetof(SessionLayout, nav)},
-                    {"radar_state", offsetof(SessionLayout, radar_state)},
-                    {"model_status", offsetof(SessionLayout, model_status)},
-                    {"outputs", offsetof(SessionLayout, outputs)},
-                    {"recorder_status", offsetof(SessionLayout, recorder_status)},
-                    {"model_ticks", offsetof(SessionLayout, model_ticks)},
-                    {"applied_events", offsetof(SessionLayout, applied_events)},
-                    {"sweeps", offsetof(SessionLayout, sweeps)},
-                    {"input", offsetof(SessionLayout, input)},
-                    {"processes", offsetof(SessionLayout, processes)},
-                    {"note_counts", offsetof(SessionLayout, note_counts)},
-                    {"notes", offsetof(SessionLayout, notes)},
-                    {"patches", offsetof(SessionLayout, patches)},
-                    {"traffic", offsetof(SessionLayout, traffic)},
-                    {"traffic_latched", offsetof(SessionLayout, traffic_latched)},
-                    {"frames", offsetof(SessionLayout, frames)},
-                    {"counters", offsetof(SessionLayout, counters)},
-                    {"caption", offsetof(SessionLayout, caption)},
-                    {"advice", offsetof(SessionLayout, advice)},
-                    {"skipped_ticks", offsetof(SessionLayout, skipped_ticks)},
-                    {"network_status", offsetof(SessionLayout, network_status)},
-                    {"network", offsetof(SessionLayout, network)},
-                    {"world", offsetof(SessionLayout, world)},
-                    {"world_configured", offsetof(SessionLayout, world_configured)},
-                    {"world_latched", offsetof(SessionLayout, world_latched)},
-                    {"world_request", offsetof(SessionLayout, world_request)},
-                    {"world_requests", offsetof(SessionLayout, world_requests)}});
+  ObjectText object;
+  for_each_container([&](const Container& one, auto) { object.add(one.name, one.offset); });
+  return object.text();
 }
 
 std::string lock_bytes() {

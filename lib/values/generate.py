@@ -7,8 +7,8 @@ usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for
        generate.py --tables FILE    the page of all records, fields and values, in Markdown; needs no build
        generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h,
                                     station/web/src/values.ts, and the marked parts of python/yars/session.py,
-                                    results.pyi and dataset/keys.py; the lists of presets in the files that
-                                    generator/presets.py names
+                                    results.pyi and dataset/keys.py; the table of writers in docs/shared_memory.md;
+                                    the lists of presets in the files that generator/presets.py names
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
 YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
 segment's containers (`yars status --layout`). A fault in the IDL is reported in one line: file:line, what was expected,
@@ -22,7 +22,7 @@ import sys
 sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
-from generator import clients, cpp, dds, fields, idl, presets, schema, stability, tables  # noqa: E402
+from generator import clients, cpp, dds, fields, idl, presets, schema, segment, stability, tables  # noqa: E402
 
 ROOT = HERE.parents[1]
 HEADER = "databuffer/client/yars_records.h"
@@ -45,8 +45,12 @@ def write_if_changed(path, text):
         path.write_text(text, encoding="utf-8")
 
 
+def described_segment():
+    return idl.read(HERE, "segment.idl")[-1].declarations[-1]
+
+
 def build(folder, chapters):
-    made = cpp.files(chapters)
+    made = {**cpp.files(chapters), **segment.files(described_segment())}
     made["databuffer/client/yars_records_check.hpp"] = clients.c_asserts(chapters)
     made["gateway/yars_records.idl"] = dds.idl(chapters)
     made["gateway/dds/yars_records_check.cpp"] = dds.asserts(chapters)
@@ -111,6 +115,8 @@ def tree_files(chapters, layout, root):
     except KeyError as name:
         raise StaleError(f"{presets.PAGE}: expected a row of the preset {name} in the first table of `Speed against "
                          "accuracy`, found none; measure it with `yars trade`") from None
+    made[segment.PAGE] = with_part(segment.PAGE, text_of(root / segment.PAGE), segment.writers(described_segment()),
+                                   segment.TABLE, segment.END)
     known = presets.names(kinds)
     for name in presets.LISTS:
         text = made[name] if name in made else text_of(root / name)

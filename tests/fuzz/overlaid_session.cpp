@@ -16,6 +16,7 @@ namespace {
 
 using namespace databuffer;
 
+constexpr std::size_t kLarge_bytes = 512;
 constexpr std::uint64_t kMaxPublished = 64;  // [records] that the programs under test publish into a ring in one run
 
 Ownship good_ownship() {
@@ -127,41 +128,16 @@ OverlaidSession::Records OverlaidSession::well_formed() {
   return records;
 }
 
+// Each container, and each large element of an array of containers.
 std::vector<OverlaidSession::Part> OverlaidSession::parts() {
-  SessionLayout& whole = layout();
   std::vector<Part> parts;
-  const auto add = [&](const auto& part) {
-    parts.push_back({static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&part) - memory()), sizeof part});
-  };
-  add(whole.lockstep);
-  add(whole.clock);
-  add(whole.ownship_priority);
-  for (const auto& lane : whole.ownship) add(lane);
-  for (const auto& lane : whole.nav) add(lane);
-  add(whole.radar_state);
-  add(whole.model_status);
-  add(whole.outputs);
-  add(whole.recorder_status);
-  add(whole.model_ticks);
-  add(whole.applied_events);
-  add(whole.sweeps);
-  add(whole.input);
-  add(whole.processes);
-  add(whole.note_counts);
-  add(whole.notes);
-  for (const auto& slot : whole.patches) add(slot);
-  add(whole.traffic);
-  add(whole.traffic_latched);
-  for (const auto& slot : whole.frames) add(slot);
-  add(whole.counters);
-  add(whole.caption);
-  add(whole.network_status);
-  add(whole.network);
-  add(whole.world);
-  add(whole.world_configured);
-  add(whole.world_latched);
-  add(whole.world_request);
-  add(whole.world_requests);
+  for_each_container([&]<class Whole>(const Container& one, Whole SessionLayout::*) {
+    std::size_t count = 1;
+    if constexpr (requires { std::tuple_size<Whole>::value; })
+      if (sizeof(typename Whole::value_type) >= kLarge_bytes) count = std::tuple_size_v<Whole>;
+    for (std::size_t i = 0, size = sizeof(Whole) / count; i < count; ++i)
+      parts.push_back({one.offset + i * size, size});
+  });
   return parts;
 }
 

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "databuffer/messages/derived_values.hpp"
 #include "databuffer/session/receivers.hpp"
@@ -179,11 +181,39 @@ void print_radar(const Status& status) {
               fidelity.empty() ? "unknown" : fidelity.c_str(), load_text(model.load).c_str(),
               text::counted(model.sweeps, "sweep").c_str(), static_cast<double>(model.terrain_bytes) / 1e6);
   print_display_words(status);
-  if (!status.recorder) return;
-  std::printf("recorder: %s, %.1f MB", status.recorder->writing != 0 ? "writing" : "stopped",
-              static_cast<double>(status.recorder->bytes) / 1e6);
-  if (status.recorder->problem[0] != '\0') std::printf(", %s", shown(text::text_of(status.recorder->problem)).c_str());
-  std::printf("\n");
+}
+
+// "writing", "not writing", "wind speed 5 m/s", "20.1 MB"; empty: no value.
+std::string words_of(const databuffer::ShownField& field) {
+  std::string stem(field.stem);
+  std::ranges::replace(stem, '_', ' ');
+  return std::visit(
+      [&](const auto& value) -> std::string {
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, bool>) {
+          return (value ? "" : "not ") + stem;
+        } else if constexpr (std::is_same_v<Value, std::string>) {
+          return shown(value);
+        } else {
+          const bool is_size = field.unit == "bytes";
+          if (std::isnan(static_cast<double>(value))) return {};
+          std::array<char, 32> buffer;
+          std::snprintf(buffer.data(), buffer.size(), is_size ? "%.1f MB" : "%.9g",
+                        static_cast<double>(value) * (is_size ? 1e-6 : 1.0));
+          if (is_size) return buffer.data();
+          return stem + ' ' + buffer.data() + (field.unit.empty() ? "" : " ") + std::string(field.unit);
+        }
+      },
+      field.value);
+}
+
+void print_records(const std::vector<databuffer::ShownRecord>& records) {
+  for (const auto& record : records) {
+    std::string words;
+    for (const auto& field : record.fields)
+      if (const std::string more = words_of(field); !more.empty()) words += (words.empty() ? "" : ", ") + more;
+    if (!record.fields.empty()) std::printf("%s: %s\n", std::string(record.name).c_str(), words.c_str());
+  }
 }
 
 void print_frames(const std::optional<FrameStatus>& frames) {
@@ -232,6 +262,7 @@ void print_status(const Status& status, const std::map<int, double>& loads) {
   print_network(status.network);
   print_ownship(status);
   print_radar(status);
+  print_records(status.records);
   print_frames(status.frames);
   print_traffic(status.traffic);
   print_tour(status.watch.caption);

@@ -182,6 +182,8 @@ def checks_header(chapters):
     text += "// Reports the first field that is out of range to the inspection. Fields with @by_hand are not checked.\n"
     text += "".join(f"void check_fields(Inspection& inspection, const {one.name}& record);\n"
                     for one in whole_records(chapters))
+    text += "\n// The first fault of a record, nullopt for a valid one. validation.cpp has those with @by_hand.\n"
+    text += "".join(f"Refusal validate(const {one.name}& record);\n" for one in whole_records(chapters))
     return text + "\n}  // namespace yars::databuffer\n"
 
 
@@ -196,6 +198,9 @@ def checks_source(chapters):
         names = (("Inspection& inspection", f"const {one.name}& record") if body else
                  ("Inspection&", f"const {one.name}&"))
         text += f"\nvoid check_fields({', '.join(names)}) {{\n{body}}}\n"
+        if not one.is_validated_by_hand():
+            text += (f"\nRefusal validate(const {one.name}& record) {{\n  Inspection inspection;\n"
+                     "  check_fields(inspection, record);\n  return inspection.result();\n}\n")
     return text + "\n}  // namespace yars::databuffer\n"
 
 

@@ -18,7 +18,7 @@ ARITHMETIC = {"+": lambda a, b: a + b, "-": lambda a, b: a - b, "*": lambda a, b
 ANNOTATIONS = {"final", "nested", "bit_bound", "position", "unit", "range", "min", "max", "default", "nan",
                "counted_by", "cut",
                "by_hand", "request", "option", "otherwise", "optional", "shown", "different_picture",
-               "parameters", "like", "cost", "wrong_shadow"}
+               "parameters", "like", "cost", "wrong_shadow", "segment", "writer", "reserve", "status"}
 TYPES = {**schema.INTEGERS, **schema.REALS}
 
 
@@ -167,7 +167,8 @@ class Parser:
         if self.token.text == "@" and self.scan.tokens[self.at + 1].text == "annotation":
             return self.annotation_declaration()
         notes = self.annotations()
-        kinds = {"const": self.constant, "enum": self.enumeration, "bitmask": self.bitmask, "struct": self.record}
+        kinds = {"const": self.constant, "enum": self.enumeration, "bitmask": self.bitmask,
+                 "struct": self.segment if "segment" in notes else self.record}
         if self.token.text not in kinds:
             raise IdlError(self.where, "module, const, enum, bitmask or struct", f"'{self.token.text}'")
         return kinds[self.next().text](notes, first)
@@ -248,7 +249,7 @@ class Parser:
             raise IdlError(where, f"@final or @request at {name}", "both" if "final" in notes else "none",
                            "a record has a fixed layout, a request has none")
         record = schema.Record(name, self.comment_above(first), where, self.module, nested="nested" in notes,
-                               request="request" in notes)
+                               request="request" in notes, by_hand="by_hand" in notes)
         if self.is_next(":"):
             record.fields += self.find(self.expect_name("a request"), "the name of a request", schema.Record).fields
         self.expect("{")
@@ -257,6 +258,33 @@ class Parser:
         self.expect(";")
         schema.check_record(record)
         self.declare(record)
+
+    def segment(self, _, first):
+        where, name = self.where, self.expect_name("a segment")
+        doc, containers = self.comment_above(first), []
+        self.expect("{")
+        while not self.is_next("}"):
+            containers.append(self.container())
+        self.expect(";")
+        self.declare(schema.Segment(name, doc, where, self.module, containers))
+
+    def container(self):
+        """Parses `latest<RECORD> NAME;`, `ring<RECORD, DEPTH> NAME;` or `TYPE NAME;`, each with [SIZE] or without."""
+        first, notes, kind, record, depth, size = self.token.line, self.annotations(), self.next().text, None, "", ""
+        if self.is_next("<"):
+            record = self.find(self.expect_name("a record"), "the name of a record", schema.Record)
+            depth = self.next().text if self.is_next(",") else ""
+            self.expect(">")
+        where, name = self.where, self.expect_name("a container")
+        if self.is_next("["):
+            size = self.next().text
+            self.expect("]")
+        last = self.token.line
+        self.expect(";")
+        if "writer" not in notes or (kind in ("latest", "ring")) != bool(record) or (kind == "ring") != bool(depth):
+            raise IdlError(where, f"@writer, and latest<RECORD>, ring<RECORD, DEPTH> or a type, at {name}", kind)
+        return schema.Container(name, self.doc(first, last), where, self.module, kind, record, depth, size,
+                                notes["writer"][""], notes.get("status", {"": ""})[""], "reserve" in notes)
 
     def fields(self):
         """Parses a declaration of one or several fields."""
@@ -333,7 +361,7 @@ class Parser:
         field.default = parameter("default") if "default" in notes else None
         field.nan = parameter("nan") if "nan" in notes else None
         field.counted_by = parameter("counted_by") if "counted_by" in notes else None
-        field.cut, field.by_hand = "cut" in notes, "by_hand" in notes
+        field.cut, field.by_hand, field.in_status = "cut" in notes, "by_hand" in notes, "status" in notes
         field.otherwise = parameter("otherwise") if "otherwise" in notes else ""
         field.optional = "optional" in notes
         if "shown" in notes:

@@ -111,6 +111,7 @@ class Field(Declaration):
     optional: bool = False  # of requests: the field may be left out
     otherwise: str = ""  # of requests: what holds then
     shown: Shown = None  # None: people do not give the value
+    in_status: bool = False  # True: `yars status` shows it
     offset: int = 0
 
     @property
@@ -179,8 +180,29 @@ class Record(Declaration):
     fields: list = dataclasses.field(default_factory=list)
     nested: bool = False  # occurs only inside other records
     request: bool = False  # what a program asks of the library, without a layout
+    by_hand: bool = False  # True: hand-written code validates it, with the generated checks of its fields
     size: int = 0
     alignment: int = 1
+
+    def is_validated_by_hand(self):
+        return self.by_hand or any(field.by_hand or isinstance(field.type, Record) and field.type.is_validated_by_hand()
+                                   for field in self.fields)
+
+
+@dataclasses.dataclass(eq=False)
+class Container(Declaration):
+    kind: str = ""  # latest, ring, or a type of session_parts.hpp
+    record: Record = None  # of latest and ring
+    depth: str = ""  # of a ring
+    size: str = ""  # number of such containers; empty: one
+    writer: str = ""
+    status: str = ""  # name in the status of a session; empty: not shown
+    reserve: bool = False  # the reserve begins here
+
+
+@dataclasses.dataclass(eq=False)
+class Segment(Declaration):
+    containers: list = dataclasses.field(default_factory=list)
 
 
 @dataclasses.dataclass(eq=False)

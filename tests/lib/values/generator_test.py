@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 MESSAGES = ROOT / "lib/values"
 sys.path.insert(0, str(MESSAGES))
 import generate  # noqa: E402
-from generator import clients, cpp, dds, fields, idl, presets, schema, stability  # noqa: E402
+from generator import clients, cpp, dds, fields, idl, presets, schema, segment, stability  # noqa: E402
 
 GOOD = """// One record.
 module yars {
@@ -186,6 +186,15 @@ class TheRecordsOfTheTree(unittest.TestCase):
         self.assertIn('  for (const auto& entry : record.names) {\n    inspection.text("names", entry);\n  }\n', made)
         self.assertIn('  for (const auto& entry : used(record.marks, record.count)) {\n'
                       '    inspection.at_most("marks", entry, 9);', made)
+
+    def test_a_record_is_validated_by_its_checks_or_by_hand(self):
+        self.assertIn("Refusal validate(const Place& record) {\n  Inspection inspection;\n  check_fields(",
+                      cpp.checks_source(chapters_of(GOOD)))
+        for old, new in (("@final\n  struct Place", "@final @by_hand\n  struct Place"),
+                         ("@range(min=-90.0, max=90.0) double", "@range(min=-90.0, max=90.0) @by_hand double")):
+            chapters = chapters_of(changed(old, new))
+            self.assertNotIn("validate(", cpp.checks_source(chapters))
+            self.assertIn("Refusal validate(const Place& record);\n", cpp.checks_header(chapters))
 
     def test_a_default_of_all_is_zero(self):
         self.assertEqual([field.name for one in self.records.values() for field in one.fields if field.default], [])
@@ -385,10 +394,11 @@ class TheFilesOfTheTree(unittest.TestCase):
         for name in (generate.PYTHON, generate.HEADER, generate.LAYOUT, generate.KEYS, generate.PAGES):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
         self.names = presets.names(generate.preset_kinds())
-        for name in (*presets.LISTS, presets.PAGE):
+        for name in (*presets.LISTS, presets.PAGE, segment.PAGE):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             (self.root / name).write_text(", ".join(self.names))
         (self.root / presets.PAGE).write_text(page_of(self.names))
+        (self.root / segment.PAGE).write_text(segment.TABLE + segment.END)
         (self.root / generate.KEYS).write_text(f"{generate.BEGIN}{generate.END}# {', '.join(self.names)}\n")
         (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
         (self.root / generate.STUB).write_text(f"# {', '.join(self.names)}\n" + "".join(
@@ -414,8 +424,9 @@ class TheFilesOfTheTree(unittest.TestCase):
 
     def test_are_written_and_then_found_fresh(self):
         self.refuses(generate.StaleError,
-                     "python/yars/results.pyi, python/yars/dataset/keys.py, station/web/src/values.ts: expected what "
-                     "the IDL says, found otherwise; run lib/values/generate.py --write")
+                     "python/yars/results.pyi, python/yars/dataset/keys.py, station/web/src/values.ts, "
+                     "docs/shared_memory.md: expected what the IDL says, found otherwise; run "
+                     "lib/values/generate.py --write")
         self.run_with("--write")
         self.run_with("--check")
         text = (self.root / generate.PYTHON).read_text()
@@ -531,6 +542,54 @@ class Presets(unittest.TestCase):
                          ("draft or fine", "draft or fine"), ("a, b, c", "a, b, c")):
             self.assertEqual(presets.listed(old, known), new)
         self.assertFalse(presets.has_list("draft or fine", known))
+
+
+SEGMENT = GOOD + """module yars {
+  @segment
+  struct Layout {
+    @writer("everybody") Counters counters[kRoles];
+    @writer("model") @status("place") latest<Place> place;  // of the aircraft
+    @reserve @writer("model") ring<Place, 16> places;
+  };
+};
+"""
+
+
+class ASegment(unittest.TestCase):
+    def setUp(self):
+        text = SEGMENT.replace('@unit("deg")', '@status @unit("deg")', 1)
+        self.segment = chapters_of(text)[-1].declarations[-1]
+
+    def test_becomes_a_struct_and_a_visitor(self):
+        made = segment.containers_header(self.segment)
+        self.assertIn("struct Layout {\n  shm::SegmentHeader header;\n  std::array<Counters, kRoles> counters;\n"
+                      "  shm::LatestValue<Place> place;  // of the aircraft\n  shm::BroadcastRing<Place, 16> places;\n",
+                      made)
+        self.assertIn('visit(Container{"place", "Place", "place", "model",\n', made)
+        reserve = made.partition("kReserveEnd")[2].partition(";")[0]
+        self.assertIn("LatestValue", reserve)
+        self.assertNotIn("BroadcastRing", reserve)
+
+    def test_becomes_fields_of_the_status(self):
+        made = segment.status_header(self.segment)
+        self.assertIn('shown_fields(const Place& record) {\n  return {\n'
+                      '      {"latitude_deg", "latitude", "deg", record.latitude_deg},\n  };\n', made)
+
+    def test_becomes_a_table_of_writers(self):
+        self.assertEqual(segment.writers(self.segment), "| `counters` | everybody |  |\n"
+                         "| `place`, `places` | model | `place`: {`latitude_deg`} |\n")
+
+    def test_has_numbers_and_texts_in_the_status(self):
+        with self.assertRaisesRegex(schema.IdlError, "@status at a number or a text, not at names"):
+            segment.status_header(chapters_of(SEGMENT.replace("string<7> names", "@status string<7> names"))[-1]
+                                  .declarations[-1])
+
+    def test_needs_a_writer_and_a_depth(self):
+        for old, new in (('@writer("everybody") ', ""), ("ring<Place, 16>", "ring<Place>"),
+                         ("latest<Place>", "latest<Place, 2>"), ("latest<Place>", "latest"),
+                         ("latest<Place>", "Ring<Place, 2>")):
+            with self.assertRaisesRegex(schema.IdlError, "expected @writer, and latest<RECORD>", msg=new):
+                chapters_of(SEGMENT.replace(old, new))
 
 
 class ALayout(unittest.TestCase):

@@ -234,6 +234,18 @@ TEST_F(NetworkStatusTest, AGatewayThatHasNotJoinedIsAReason) {
   EXPECT_THAT(reasons(), HasSubstr("the session clock of the hosts is not known yet"));
 }
 
+TEST_F(NetworkStatusTest, ARecordIsShownWhileItsWriterRuns) {
+  databuffer::RecorderStatus written{};
+  written.bytes = 20'140'000;
+  written.writing = 1;
+  gateway_->layout().recorder_status.publish(written);
+  host(1, "beta").held_roles = bit(Role::radar_model);
+  EXPECT_EQ(status()["recorder"], nullptr);
+  const auto recorder = open("recorder");
+  EXPECT_EQ(status()["recorder"], (ordered_json{{"bytes", 20'140'000}, {"writing", true}, {"problem", nullptr}}));
+  EXPECT_THAT(printed(), HasSubstr("\nrecorder: 20.1 MB, writing\n"));
+}
+
 TEST_F(NetworkStatusTest, WithoutAGatewayThereIsNoNetwork) {
   mirror_radar_model();
   ASSERT_NE(status()["network"], nullptr);
