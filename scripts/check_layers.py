@@ -192,7 +192,8 @@ GENERATED_HEADERS = {"guf_lexer.hpp", "guf_parser.hpp", "message_lexer.hpp", "me
 
 # made by lib/values/generate.py in the build folder, beside one header for each IDL file of the records
 MADE_HEADERS = {"databuffer/messages/record_checks.hpp", "databuffer/messages/shown_fields.hpp",
-                "databuffer/session/session_containers.hpp", "databuffer/client/yars_records_check.hpp"}
+                "databuffer/messages/world_lists.hpp", "databuffer/session/session_containers.hpp",
+                "databuffer/client/yars_records_check.hpp"}
 # made by idlc in the build folder
 MADE_HEADERS |= {"gateway/dds/yars_network.h", "gateway/dds/yars_records.h", "lib/values/fields.hpp",
                  "lib/values/defaults.hpp", "lib/values/presets.hpp"}

@@ -55,7 +55,7 @@ class Arguments {
   }
   world::WorldList list(const char* name) {
     if (const auto list = world_list(object_, name)) return *list;
-    refuse(name, kWorldLists, object_.find(name));
+    refuse(name, world_lists(), object_.find(name));
     return {};
   }
   const std::optional<error::Error>& problem() const { return problem_; }

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <variant>
 
 #include "lib/error/error.hpp"
 #include "world/world_edit.hpp"
@@ -24,10 +23,7 @@ class RemovedEntries {
   error::Expected<void> restore(databuffer::WorldState& world, world::WorldList list, std::uint32_t id) const;
 
  private:
-  // The alternatives have the order of WorldList.
-  using Entry =
-      std::variant<databuffer::WorldRainCell, databuffer::WorldJammer, databuffer::WorldMover, databuffer::WorldPoint>;
-  std::deque<Entry> entries_;  // the newest first
+  std::deque<world::WorldEntry> entries_;  // the newest first
 };
 
 }  // namespace yars::station

@@ -1,10 +1,12 @@
 #include "station/world_message.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/values/fields.hpp"
@@ -46,64 +48,59 @@ WorldEdit edit_by(Change change) {
   };
 }
 
-Expected<WorldEdit> refused(const char* subject, const char* expected) {
+Expected<WorldEdit> refused(const char* subject, const std::string& expected) {
   return error::fail(subject, expected, "something else");
 }
 
-Expected<WorldEdit> add_edit(WorldList list, geo::GeoPoint position) {
-  switch (list) {
-    case WorldList::rain:
-      return edit_by(
-          [=](WorldState& world, std::int64_t) { return world::add(world, world::default_rain_cell(position)); });
-    case WorldList::jammers:
-      return edit_by(
-          [=](WorldState& world, std::int64_t) { return world::add(world, world::default_jammer(position)); });
-    case WorldList::movers:
-      return edit_by([=](WorldState& world, std::int64_t sim_time_ns) {
-        return world::add(world, world::default_mover(position, sim_time_ns));
-      });
-    case WorldList::points:
-      return edit_by([=](WorldState& world, std::int64_t) -> Expected<std::uint32_t> {
-        const auto point = world::default_point(world, position);
-        if (!point) return tl::unexpected(point.error());
-        return world::add(world, *point);
-      });
-  }
-  return refused("list", kWorldLists);
+// Replaces the values of an entry that the object has, by their names in world_json.hpp; null: not known.
+Expected<void> write_values(world::WorldEntry& entry, const json& object) {
+  if (object.contains("name"))
+    if (auto named = world::set_name(entry, text(object, "name")); !named) return named;
+  std::visit(
+      [&object](auto& one) {
+        values::visit_fields(one, [&object](const values::Field& field, double& value) {
+          if (object.contains(field.name)) value = field.recorded(number(object, field.name));
+        });
+      },
+      entry);
+  return {};
 }
 
-// Replaces the values of an entry that the object has, by their names in world_json.hpp; null: not known.
-template <class Entry>
-Expected<WorldEdit> change_edit(std::uint32_t id, const json& object) {
-  for (const values::Field& field : Entry::Values::all) {
-    const auto found = object.find(field.name);
-    if (found != object.end() && !found->is_number() && !found->is_null())
-      return error::fail(std::string(field.name), "a number, or null", "something else");
-  }
+Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& object) {
+  Expected<WorldEdit> wrong;
+  databuffer::for_list(list, [&]<class Entry>(std::type_identity<Entry>) {
+    for (const values::Field& field : Entry::Values::all) {
+      const auto found = object.find(field.name);
+      if (wrong && found != object.end() && !found->is_number() && !found->is_null())
+        wrong = error::fail(std::string(field.name), "a number, or null", "something else");
+    }
+  });
+  if (!wrong) return wrong;
   return edit_by([=](WorldState& world, std::int64_t sim_time_ns) -> Expected<void> {
-    auto entry = world::entry_with<Entry>(world, id, sim_time_ns);
+    auto entry = world::entry_with(world, list, id, sim_time_ns);
     if (!entry) return tl::unexpected(entry.error());
-    if constexpr (requires { entry->name; })
-      if (object.contains("name"))
-        if (auto named = world::set_name(*entry, text(object, "name")); !named) return named;
-    values::visit_fields(*entry, [&object](const values::Field& field, double& value) {
-      if (object.contains(field.name)) value = field.recorded(number(object, field.name));
-    });
+    if (auto written = write_values(*entry, object); !written) return written;
     return world::replace(world, *entry);
+  });
+}
+
+Expected<WorldEdit> add_edit(WorldList list, geo::GeoPoint position) {
+  return edit_by([=](WorldState& world, std::int64_t sim_time_ns) -> Expected<std::uint32_t> {
+    const auto entry = world::default_entry(world, list, position, sim_time_ns);
+    if (!entry) return tl::unexpected(entry.error());
+    return world::add(world, *entry);
   });
 }
 
 Expected<WorldEdit> entry_edit(std::string_view command, const json& object) {
   const auto list = world_list(object, "list");
-  if (!list) return refused("list", kWorldLists);
+  if (!list) return refused("list", world_lists());
   const std::uint32_t id = item_of(object);
   const geo::GeoPoint position{number(object, "lat"), number(object, "lon")};
   const bool has_position = std::isfinite(position.latitude_deg) && std::isfinite(position.longitude_deg);
   if ((command == "add" || command == "move") && !has_position) return refused("lat, lon", "two numbers");
   if (command == "add") return add_edit(*list, position);
-  if (command == "change")
-    return world::for_list(*list,
-                           [&]<class Entry>(std::type_identity<Entry>) { return change_edit<Entry>(id, object); });
+  if (command == "change") return change_edit(*list, id, object);
   if (command == "move")
     return edit_by([=, list = *list](WorldState& world, std::int64_t sim_time_ns) {
       return world::move(world, list, id, position, sim_time_ns);
@@ -114,12 +111,19 @@ Expected<WorldEdit> entry_edit(std::string_view command, const json& object) {
 }  // namespace
 
 std::optional<WorldList> world_list(const json& object, const char* name) {
-  const std::string list = text(object, name);
-  if (list == "rain") return WorldList::rain;
-  if (list == "jammers") return WorldList::jammers;
-  if (list == "movers") return WorldList::movers;
-  if (list == "points") return WorldList::points;
-  return std::nullopt;
+  const auto found = std::ranges::find(databuffer::kWorldLists, text(object, name), &values::List::name);
+  if (found == databuffer::kWorldLists.end()) return std::nullopt;
+  return static_cast<WorldList>(found - databuffer::kWorldLists.begin());
+}
+
+std::string world_lists() {
+  std::string names;
+  for (const values::List* const list : databuffer::kWorldLists)
+    names += (list == databuffer::kWorldLists.front()  ? ""
+              : list == databuffer::kWorldLists.back() ? " or "
+                                                       : ", ") +
+             std::string(list->name);
+  return names;
 }
 
 std::string_view world_commands() {

@@ -1,5 +1,4 @@
-// Commands of the instructor's page that change the world: sea, wind, rain cells, jammers, movers, sequence
-// points, fidelity.
+// Commands of the instructor's page that change the world: sea, wind, the entries of its lists, fidelity.
 // Inputs: the name of a command and its object of JSON. Outputs: the change, as a function for change_world().
 // Errors: an argument that is absent or no number of the right kind, when the command is read; a value out of range or
 //   an unknown id, when the change is made. Each says what was expected.
@@ -11,6 +10,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "databuffer/messages/world_state.hpp"
@@ -26,9 +26,10 @@ using WorldEdit =
 // nullopt: the name is not that of a command of the world.
 std::optional<error::Expected<WorldEdit>> world_edit(std::string_view command, const nlohmann::json& object);
 
-// List that an object names; nullopt: none of kWorldLists.
+// List that an object names; nullopt: none of world_lists().
 std::optional<world::WorldList> world_list(const nlohmann::json& object, const char* name);
-inline constexpr const char* kWorldLists = "rain, jammers, movers or points";
+// Names of the lists, for messages.
+std::string world_lists();
 
 // Names of the commands, for messages.
 std::string_view world_commands();

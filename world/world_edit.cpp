@@ -48,6 +48,25 @@ Expected<void> check(std::string_view subject, const Entry& entry) {
   return outcome;
 }
 
+// Word for an entry, for messages.
+template <class Entry>
+constexpr std::string_view kWord = Entry::Values::list.entry;
+
+// The entries in use of the list of a world.
+template <class Entry, class World>
+auto in_use(World& world) {
+  return databuffer::ListOf<Entry>::entries_in_use(world);
+}
+
+void mark_changed(databuffer::WorldState& world) {
+  world.flags &= ~databuffer::kWorldConfigured;
+}
+template <class Entry>
+void mark_list_changed(databuffer::WorldState& world) {
+  mark_changed(world);
+  if constexpr (std::is_same_v<Entry, databuffer::WorldPoint>) world.flags |= databuffer::kWorldPointsChanged;
+}
+
 template <std::size_t size>
 Expected<void> store_name(char (&into)[size], std::string_view subject, std::string_view name) {
   const auto printable = [](char letter) { return letter >= ' ' && letter <= '~'; };
@@ -60,39 +79,19 @@ Expected<void> store_name(char (&into)[size], std::string_view subject, std::str
   return {};
 }
 
-// One list of a world: its entries, the number in use, and a word for messages.
 template <class Entry>
-struct List {
-  std::span<Entry> entries;
-  std::uint32_t& count;
-  std::string_view subject;
-  std::span<Entry> in_use() const { return entries.first(std::min<std::size_t>(count, entries.size())); }
-};
-
-List<databuffer::WorldRainCell> list_of(databuffer::WorldState& world, const databuffer::WorldRainCell* /*kind*/) {
-  return {world.rain, world.rain_count, "rain cell"};
+Expected<void> name_entry(Entry& entry, std::string_view name) {
+  if constexpr (requires { entry.name; }) return store_name(entry.name, kWord<Entry>, name);
+  return fail(std::string(kWord<Entry>) + ": name", "none", '"' + text::printable(std::string(name)) + '"');
 }
-List<databuffer::WorldJammer> list_of(databuffer::WorldState& world, const databuffer::WorldJammer* /*kind*/) {
-  return {world.jammers, world.jammer_count, "jammer"};
-}
-List<databuffer::WorldMover> list_of(databuffer::WorldState& world, const databuffer::WorldMover* /*kind*/) {
-  return {world.movers, world.mover_count, "mover"};
-}
-List<databuffer::WorldPoint> list_of(databuffer::WorldState& world, const databuffer::WorldPoint* /*kind*/) {
-  return {world.points, world.point_count, "point"};
-}
-template <class Entry>
-List<Entry> list_in(databuffer::WorldState& world) {
-  return list_of(world, static_cast<const Entry*>(nullptr));
-}
-
-void mark_changed(databuffer::WorldState& world) {
-  world.flags &= ~databuffer::kWorldConfigured;
-}
-template <class Entry>
-void mark_list_changed(databuffer::WorldState& world) {
-  mark_changed(world);
-  if constexpr (std::is_same_v<Entry, databuffer::WorldPoint>) world.flags |= databuffer::kWorldPointsChanged;
+Expected<void> name_entry(databuffer::WorldPoint& point, std::string_view name) {
+  const auto parts = radar::point_name(name);
+  if (!parts)
+    return fail("point: name", "2, target 2., offset 2.1 or target offset 2.01, with a number from 1 to 100",
+                '"' + text::printable(std::string(name.substr(0, 40))) + '"');
+  if (!radar::is_kind_of(static_cast<radar::PointKind>(point.kind), *parts))
+    point.kind = static_cast<std::uint8_t>(radar::kind_by_name(*parts));
+  return store_name(point.name, "point", name);
 }
 
 // ---- Rules of sequence points among each other
@@ -138,130 +137,54 @@ std::string ids_of(std::span<Entry> entries) {
   return ids.empty() ? "no entry in the world" : "one of the ids " + ids;
 }
 
-template <class Entry>
-tl::unexpected<error::Error> fail_unknown(std::string_view subject, std::span<Entry> in_use, std::uint32_t id) {
-  return fail(std::string(subject), ids_of(in_use), "id " + std::to_string(id), "see `yars world`");
-}
-
-template <class Entry>
-Expected<Entry*> find(const List<Entry>& list, std::uint32_t id) {
-  const auto in_use = list.in_use();
-  const auto found = std::ranges::find(in_use, id, &Entry::id);
-  if (found == in_use.end()) return fail_unknown(list.subject, in_use, id);
+template <class Entry, class World>
+auto find(World& world, std::uint32_t id) -> Expected<decltype(in_use<Entry>(world).data())> {
+  const auto entries = in_use<Entry>(world);
+  const auto found = std::ranges::find(entries, id, &Entry::id);
+  if (found == entries.end())
+    return fail(std::string(kWord<Entry>), ids_of(entries), "id " + std::to_string(id), "see `yars world`");
   return &*found;
 }
 
 // An id that no entry of the list has. It was not given before, unless all numbers have been.
 template <class Entry>
-std::uint32_t new_id(databuffer::WorldState& world, std::span<Entry> in_use) {
+std::uint32_t new_id(databuffer::WorldState& world) {
   do {
     world.last_id = std::max(world.last_id + 1, 1U);
-  } while (std::ranges::find(in_use, world.last_id, &Entry::id) != in_use.end());
+  } while (find<Entry>(world, world.last_id));
   return world.last_id;
 }
 
 template <class Entry>
 Expected<void> append_entry(databuffer::WorldState& world, const Entry& entry) {
-  const List<Entry> list = list_in<Entry>(world);
-  if (list.count >= list.entries.size())
-    return fail(std::string(list.subject), "at most " + std::to_string(list.entries.size()) + " in the world",
+  using List = databuffer::ListOf<Entry>;
+  if (in_use<Entry>(world).size() == List::entries(world).size())
+    return fail(std::string(kWord<Entry>), "at most " + std::to_string(List::entries(world).size()) + " in the world",
                 "one more", "remove another one first");
   if (auto fitting = check_beside_others(world, entry); !fitting) return fitting;
-  list.entries[list.count++] = entry;
+  List::entries(world)[List::count(world)++] = entry;
   mark_list_changed<Entry>(world);
   return {};
-}
-
-template <class Entry>
-Expected<void> move_entry(databuffer::WorldState& world, std::uint32_t id, geo::GeoPoint position,
-                          std::int64_t sim_time_ns) {
-  auto moved = entry_with<Entry>(world, id, sim_time_ns);
-  if (!moved) return tl::unexpected(moved.error());
-  moved->latitude_deg = position.latitude_deg;
-  moved->longitude_deg = position.longitude_deg;
-  return replace(world, *moved);
 }
 
 // The entries behind the removed one keep their order.
 template <class Entry>
 Expected<void> remove_entry(databuffer::WorldState& world, std::uint32_t id) {
-  const List<Entry> list = list_in<Entry>(world);
-  const auto found = find(list, id);
+  const auto found = find<Entry>(world, id);
   if (!found) return tl::unexpected(found.error());
-  const auto in_use = list.in_use();
-  std::copy(in_use.begin() + (*found - in_use.data()) + 1, in_use.end(), *found);
-  in_use.back() = {};
-  --list.count;
+  const auto entries = in_use<Entry>(world);
+  std::copy(*found + 1, entries.data() + entries.size(), *found);
+  entries.back() = {};
+  --databuffer::ListOf<Entry>::count(world);
   mark_list_changed<Entry>(world);
   return {};
 }
 
-// An entry with the defaults. What has none is missing.
 template <class Entry>
-Entry default_entry(geo::GeoPoint position) {
-  Entry entry{};
-  values::visit_fields(entry, [](const values::Field& field, double& value) { value = field.recorded(field.initial); });
-  entry.latitude_deg = position.latitude_deg;
-  entry.longitude_deg = position.longitude_deg;
-  return entry;
-}
-
-}  // namespace
-
-databuffer::WorldRainCell default_rain_cell(geo::GeoPoint position) {
-  return default_entry<databuffer::WorldRainCell>(position);
-}
-
-databuffer::WorldJammer default_jammer(geo::GeoPoint position) {
-  auto jammer = default_entry<databuffer::WorldJammer>(position);
-  jammer.band = radar::kEveryBand;
-  jammer.channels = (1U << radar::kChannels) - 1U;
-  return jammer;
-}
-
-databuffer::WorldMover default_mover(geo::GeoPoint position, std::int64_t sim_time_ns) {
-  auto mover = default_entry<databuffer::WorldMover>(position);
-  mover.since_ns = sim_time_ns;
-  return mover;
-}
-
-Expected<databuffer::WorldPoint> default_point(const databuffer::WorldState& world, geo::GeoPoint position) {
-  const auto others = named_points(world);
-  const auto is_free = [&others](int number) { return radar::conflict({number, 0, false}, others) == nullptr; };
-  int last = 0;
-  for (const radar::NamedPoint& other : others) last = std::max(last, other.name.number);
-  int number = last + 1;
-  if (number > radar::kMaxPointNumber)
-    for (number = 1; number <= radar::kMaxPointNumber && !is_free(number);) ++number;
-  if (number > radar::kMaxPointNumber)
-    return fail("point", "a free number from 1 to 100", "none", "remove another point first, or add an offset");
-  auto point = default_entry<databuffer::WorldPoint>(position);
-  if (auto named = set_name(point, std::to_string(number)); !named) return tl::unexpected(named.error());
-  return point;
-}
-
-Expected<void> set_name(databuffer::WorldJammer& jammer, std::string_view name) {
-  return store_name(jammer.name, "jammer", name);
-}
-Expected<void> set_name(databuffer::WorldMover& mover, std::string_view name) {
-  return store_name(mover.name, "mover", name);
-}
-Expected<void> set_name(databuffer::WorldPoint& point, std::string_view name) {
-  const auto parts = radar::point_name(name);
-  if (!parts)
-    return fail("point: name", "2, target 2., offset 2.1 or target offset 2.01, with a number from 1 to 100",
-                '"' + text::printable(std::string(name.substr(0, 40))) + '"');
-  if (!radar::is_kind_of(static_cast<radar::PointKind>(point.kind), *parts))
-    point.kind = static_cast<std::uint8_t>(radar::kind_by_name(*parts));
-  return store_name(point.name, "point", name);
-}
-
-template <class Entry>
-Expected<std::uint32_t> add(databuffer::WorldState& world, Entry entry) {
-  const List<Entry> list = list_in<Entry>(world);
-  if (auto valid = check(list.subject, entry); !valid) return tl::unexpected(valid.error());
+Expected<std::uint32_t> add_entry(databuffer::WorldState& world, Entry& entry) {
+  if (auto valid = check(kWord<Entry>, entry); !valid) return tl::unexpected(valid.error());
   const std::uint32_t last_id = world.last_id;
-  entry.id = new_id(world, list.in_use());
+  entry.id = new_id<Entry>(world);
   if (auto added = append_entry(world, entry); !added) {
     world.last_id = last_id;
     return tl::unexpected(added.error());
@@ -271,11 +194,10 @@ Expected<std::uint32_t> add(databuffer::WorldState& world, Entry entry) {
 }
 
 template <class Entry>
-Expected<void> replace(databuffer::WorldState& world, const Entry& entry) {
-  const List<Entry> list = list_in<Entry>(world);
-  const auto found = find(list, entry.id);
+Expected<void> replace_entry(databuffer::WorldState& world, const Entry& entry) {
+  const auto found = find<Entry>(world, entry.id);
   if (!found) return tl::unexpected(found.error());
-  if (auto valid = check(list.subject, entry); !valid) return valid;
+  if (auto valid = check(kWord<Entry>, entry); !valid) return valid;
   if (auto fitting = check_beside_others(world, entry); !fitting) return fitting;
   const Entry before = std::exchange(**found, entry);
   mark_list_changed<Entry>(world);
@@ -285,40 +207,113 @@ Expected<void> replace(databuffer::WorldState& world, const Entry& entry) {
 }
 
 template <class Entry>
-Expected<void> restore(databuffer::WorldState& world, const Entry& entry) {
-  const List<Entry> list = list_in<Entry>(world);
-  if (auto valid = check(list.subject, entry); !valid) return valid;
-  if (std::ranges::find(list.in_use(), entry.id, &Entry::id) != list.in_use().end())
-    return fail(std::string(list.subject), "one that was removed", "id " + std::to_string(entry.id) + " in the world");
+Expected<void> restore_entry(databuffer::WorldState& world, const Entry& entry) {
+  if (auto valid = check(kWord<Entry>, entry); !valid) return valid;
+  if (find<Entry>(world, entry.id))
+    return fail(std::string(kWord<Entry>), "one that was removed", "id " + std::to_string(entry.id) + " in the world");
   return append_entry(world, entry);
+}
+
+// Name of a steer point: the number that is one greater than the last, or else the lowest free one.
+Expected<void> give_number(const databuffer::WorldState& world, databuffer::WorldPoint& point) {
+  const auto others = named_points(world);
+  const auto is_free = [&others](int number) { return radar::conflict({number, 0, false}, others) == nullptr; };
+  int last = 0;
+  for (const radar::NamedPoint& other : others) last = std::max(last, other.name.number);
+  int number = last + 1;
+  if (number > radar::kMaxPointNumber)
+    for (number = 1; number <= radar::kMaxPointNumber && !is_free(number);) ++number;
+  if (number > radar::kMaxPointNumber)
+    return fail("point", "a free number from 1 to 100", "none", "remove another point first, or add an offset");
+  return name_entry(point, std::to_string(number));
+}
+
+// What a new entry has beside the defaults of its values.
+template <class Entry>
+Expected<void> complete(const databuffer::WorldState& /*world*/, Entry& /*entry*/, std::int64_t /*sim_time_ns*/) {
+  return {};
+}
+Expected<void> complete(const databuffer::WorldState& /*world*/, databuffer::WorldJammer& jammer, std::int64_t /*t*/) {
+  jammer.band = radar::kEveryBand;
+  jammer.channels = (1U << radar::kChannels) - 1U;
+  return {};
+}
+Expected<void> complete(const databuffer::WorldState& /*world*/, databuffer::WorldMover& mover,
+                        std::int64_t sim_time_ns) {
+  mover.since_ns = sim_time_ns;
+  return {};
+}
+Expected<void> complete(const databuffer::WorldState& world, databuffer::WorldPoint& point, std::int64_t /*t*/) {
+  return give_number(world, point);
+}
+
+}  // namespace
+
+Expected<WorldEntry> default_entry(const databuffer::WorldState& world, WorldList list, geo::GeoPoint position,
+                                   std::int64_t sim_time_ns) {
+  return databuffer::for_list(list, [&]<class Entry>(std::type_identity<Entry>) -> Expected<WorldEntry> {
+    Entry entry{};
+    values::visit_fields(entry,
+                         [](const values::Field& field, double& value) { value = field.recorded(field.initial); });
+    entry.latitude_deg = position.latitude_deg;
+    entry.longitude_deg = position.longitude_deg;
+    if (auto completed = complete(world, entry, sim_time_ns); !completed) return tl::unexpected(completed.error());
+    return entry;
+  });
+}
+
+Expected<void> set_name(WorldEntry& entry, std::string_view name) {
+  return std::visit([name](auto& one) { return name_entry(one, name); }, entry);
+}
+
+Expected<std::uint32_t> add(databuffer::WorldState& world, WorldEntry entry) {
+  return std::visit([&world](auto& one) { return add_entry(world, one); }, entry);
+}
+
+Expected<void> replace(databuffer::WorldState& world, const WorldEntry& entry) {
+  return std::visit([&world](const auto& one) { return replace_entry(world, one); }, entry);
+}
+
+Expected<void> restore(databuffer::WorldState& world, const WorldEntry& entry) {
+  return std::visit([&world](const auto& one) { return restore_entry(world, one); }, entry);
+}
+
+Expected<WorldEntry> entry_with(const databuffer::WorldState& world, WorldList list, std::uint32_t id,
+                                std::int64_t sim_time_ns) {
+  return databuffer::for_list(list, [&]<class Entry>(std::type_identity<Entry>) -> Expected<WorldEntry> {
+    const auto found = find<Entry>(world, id);
+    if (!found) return tl::unexpected(found.error());
+    if constexpr (std::is_same_v<Entry, databuffer::WorldMover>) return at_sim_time(**found, sim_time_ns);
+    return **found;
+  });
 }
 
 Expected<void> move(databuffer::WorldState& world, WorldList list, std::uint32_t id, geo::GeoPoint position,
                     std::int64_t sim_time_ns) {
-  return for_list(list, [&]<class Entry>(std::type_identity<Entry>) {
-    return move_entry<Entry>(world, id, position, sim_time_ns);
-  });
+  auto moved = entry_with(world, list, id, sim_time_ns);
+  if (!moved) return tl::unexpected(moved.error());
+  return std::visit(
+      [&](auto& entry) {
+        entry.latitude_deg = position.latitude_deg;
+        entry.longitude_deg = position.longitude_deg;
+        return replace_entry(world, entry);
+      },
+      *moved);
 }
 
 Expected<void> steer(databuffer::WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
                      std::int64_t sim_time_ns) {
-  auto steered = entry_with<databuffer::WorldMover>(world, id, sim_time_ns);
-  if (!steered) return tl::unexpected(steered.error());
-  steered->speed_mps = speed_mps;
-  steered->heading_deg = heading_deg;
-  return replace(world, *steered);
-}
-
-template <class Entry>
-Expected<Entry> entry_with(databuffer::WorldState& world, std::uint32_t id, std::int64_t sim_time_ns) {
-  const auto found = find(list_in<Entry>(world), id);
+  auto found = entry_with(world, WorldList::movers, id, sim_time_ns);
   if (!found) return tl::unexpected(found.error());
-  if constexpr (std::is_same_v<Entry, databuffer::WorldMover>) return at_sim_time(**found, sim_time_ns);
-  return **found;
+  auto& mover = std::get<databuffer::WorldMover>(*found);
+  mover.speed_mps = speed_mps;
+  mover.heading_deg = heading_deg;
+  return replace_entry(world, mover);
 }
 
 Expected<void> remove(databuffer::WorldState& world, WorldList list, std::uint32_t id) {
-  return for_list(list, [&]<class Entry>(std::type_identity<Entry>) { return remove_entry<Entry>(world, id); });
+  return databuffer::for_list(list,
+                              [&]<class Entry>(std::type_identity<Entry>) { return remove_entry<Entry>(world, id); });
 }
 
 Expected<void> set_sea_state(databuffer::WorldState& world, double state) {
@@ -360,23 +355,5 @@ databuffer::WorldMover at_sim_time(const databuffer::WorldMover& mover, std::int
   now.since_ns = sim_time_ns;
   return now;
 }
-
-// The kinds of entries.
-template Expected<databuffer::WorldRainCell> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
-template Expected<std::uint32_t> add(databuffer::WorldState&, databuffer::WorldRainCell);
-template Expected<void> replace(databuffer::WorldState&, const databuffer::WorldRainCell&);
-template Expected<void> restore(databuffer::WorldState&, const databuffer::WorldRainCell&);
-template Expected<databuffer::WorldJammer> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
-template Expected<std::uint32_t> add(databuffer::WorldState&, databuffer::WorldJammer);
-template Expected<void> replace(databuffer::WorldState&, const databuffer::WorldJammer&);
-template Expected<void> restore(databuffer::WorldState&, const databuffer::WorldJammer&);
-template Expected<databuffer::WorldMover> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
-template Expected<std::uint32_t> add(databuffer::WorldState&, databuffer::WorldMover);
-template Expected<void> replace(databuffer::WorldState&, const databuffer::WorldMover&);
-template Expected<void> restore(databuffer::WorldState&, const databuffer::WorldMover&);
-template Expected<databuffer::WorldPoint> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
-template Expected<std::uint32_t> add(databuffer::WorldState&, databuffer::WorldPoint);
-template Expected<void> replace(databuffer::WorldState&, const databuffer::WorldPoint&);
-template Expected<void> restore(databuffer::WorldState&, const databuffer::WorldPoint&);
 
 }  // namespace yars::world

@@ -7,7 +7,7 @@
 #include <string>
 #include <type_traits>
 
-#include "databuffer/messages/inspection.hpp"
+#include "databuffer/messages/world_lists.hpp"
 #include "lib/radar/route.hpp"
 #include "lib/radar/world.hpp"
 #include "lib/text/plain_text.hpp"
@@ -44,13 +44,6 @@ ordered_json object_of(const Entry& entry) {
   return object;
 }
 
-template <class Entries>
-ordered_json list_of(const Entries& entries) {
-  ordered_json list = ordered_json::array();
-  for (const auto& entry : entries) list.push_back(object_of(entry));
-  return list;
-}
-
 }  // namespace
 
 const char* band_name(std::int32_t band) {
@@ -63,20 +56,23 @@ std::string_view kind_name(const databuffer::WorldPoint& point) {
 }
 
 nlohmann::ordered_json world_json(const databuffer::WorldState& world, std::int64_t sim_time_ns) {
-  ordered_json movers = ordered_json::array();
-  for (const databuffer::WorldMover& mover : databuffer::used(world.movers, world.mover_count))
-    movers.push_back(object_of(at_sim_time(mover, sim_time_ns)));
-  return {{"edit", world.edit},
-          {"tick", world.tick},
-          {"configured", (world.flags & databuffer::kWorldConfigured) != 0U},
-          {"sea_state", null_if_missing(world.sea_state)},
-          {"wind_kt", values::WorldState::wind_speed.given(world.wind_speed_mps)},
-          {"wind_from_deg", world.wind_from_deg},
-          {"rain", list_of(databuffer::used(world.rain, world.rain_count))},
-          {"jammers", list_of(databuffer::used(world.jammers, world.jammer_count))},
-          {"movers", movers},
-          {"points_changed", (world.flags & databuffer::kWorldPointsChanged) != 0U},
-          {"points", list_of(databuffer::used(world.points, world.point_count))}};
+  ordered_json object{{"edit", world.edit},
+                      {"tick", world.tick},
+                      {"configured", (world.flags & databuffer::kWorldConfigured) != 0U},
+                      {"sea_state", null_if_missing(world.sea_state)},
+                      {"wind_kt", values::WorldState::wind_speed.given(world.wind_speed_mps)},
+                      {"wind_from_deg", world.wind_from_deg},
+                      {"points_changed", (world.flags & databuffer::kWorldPointsChanged) != 0U}};
+  databuffer::for_each_list([&]<class Entry>(std::type_identity<Entry>) {
+    ordered_json& list = object[std::string(Entry::Values::list.name)] = ordered_json::array();
+    for (const Entry& entry : databuffer::ListOf<Entry>::entries_in_use(world)) {
+      if constexpr (std::is_same_v<Entry, databuffer::WorldMover>)
+        list.push_back(object_of(at_sim_time(entry, sim_time_ns)));
+      else
+        list.push_back(object_of(entry));
+    }
+  });
+  return object;
 }
 
 }  // namespace yars::world

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 
-#include "databuffer/messages/inspection.hpp"
+#include "databuffer/messages/world_lists.hpp"
 #include "lib/text/plain_text.hpp"
 #include "lib/values/fields.hpp"
 
@@ -20,12 +21,6 @@ template <std::size_t size>
 void write_name(char (&into)[size], std::string_view name) {
   const std::size_t length = name.copy(into, size - 1);
   std::replace_if(into, into + length, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
-}
-
-// Number of entries that a record has room for.
-template <class Entry, std::size_t size>
-std::uint32_t count_in(const Entry (&)[size], std::size_t configured) {
-  return static_cast<std::uint32_t>(std::min(configured, size));
 }
 
 std::uint32_t mask_of(const std::vector<double>& channels) {
@@ -42,58 +37,73 @@ std::vector<double> channels_of(std::uint32_t mask) {
   return channels;
 }
 
-// A record, and an entry of a configuration, with the values that people give of the other.
+// What an entry has beside its position, name and values, from one shape to the other.
+template <class From, class To>
+void copy_others(const From& /*from*/, To& /*to*/) {}
+void copy_others(const radar::Jammer& configured, databuffer::WorldJammer& record) {
+  record.band = configured.band;
+  record.channels = mask_of(configured.channels);
+}
+void copy_others(const databuffer::WorldJammer& record, radar::Jammer& configured) {
+  configured.band = record.band;
+  configured.channels = channels_of(record.channels);
+}
+void copy_others(const radar::Mover& configured, databuffer::WorldMover& record) {
+  record.since_ns = std::llround(configured.since.seconds() / kSecondsPerNanosecond);
+}
+void copy_others(const databuffer::WorldMover& record, radar::Mover& configured) {
+  configured.since = geo::Duration::seconds(static_cast<double>(record.since_ns) * kSecondsPerNanosecond);
+}
+void copy_others(const radar::RoutePoint& configured, databuffer::WorldPoint& record) {
+  record.kind = static_cast<std::uint8_t>(configured.kind);
+}
+void copy_others(const databuffer::WorldPoint& record, radar::RoutePoint& configured) {
+  configured.kind = static_cast<radar::PointKind>(record.kind);
+}
+
+template <class From, class To>
+void copy_values(const From& from, To& to) {
+  std::apply([&](const auto&... member) { ((member(to) = member(from)), ...); }, From::Values::members);
+  copy_others(from, to);
+}
+
 template <class Record, class Configured>
-Record record_with_values(const Configured& configured) {
-  Record record{};
-  record.latitude_deg = configured.position.latitude_deg;
-  record.longitude_deg = configured.position.longitude_deg;
-  Record::Values::copy(configured, record);
-  return record;
-}
-template <class Configured, class Record>
-Configured configured_with_values(const Record& record) {
-  Configured configured{};
-  configured.position = {record.latitude_deg, record.longitude_deg};
-  Record::Values::copy(record, configured);
-  if constexpr (requires { record.name; }) configured.name = std::string(text::text_of(record.name));
-  return configured;
-}
-
-databuffer::WorldRainCell record_of(const radar::RainCell& cell) {
-  return record_with_values<databuffer::WorldRainCell>(cell);
-}
-
-databuffer::WorldJammer record_of(const radar::Jammer& jammer) {
-  auto record = record_with_values<databuffer::WorldJammer>(jammer);
-  write_name(record.name, jammer.name);
-  record.band = jammer.band;
-  record.channels = mask_of(jammer.channels);
-  return record;
-}
-
-databuffer::WorldMover record_of(const radar::Mover& mover) {
-  auto record = record_with_values<databuffer::WorldMover>(mover);
-  write_name(record.name, mover.name);
-  record.since_ns = std::llround(mover.since.seconds() / kSecondsPerNanosecond);
-  return record;
-}
-
-databuffer::WorldPoint record_of(const radar::RoutePoint& point) {
-  auto record = record_with_values<databuffer::WorldPoint>(point);
-  write_name(record.name, point.name);
-  record.kind = static_cast<std::uint8_t>(point.kind);
-  return record;
-}
-
-template <class Entry, std::size_t size, class Configured>
-std::uint32_t write_list(Entry (&entries)[size], const Configured& configured) {
-  const std::uint32_t count = count_in(entries, configured.size());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    entries[i] = record_of(configured[i]);
-    entries[i].id = i + 1;
+void write_list(databuffer::WorldState& world, const std::vector<Configured>& list) {
+  using List = databuffer::ListOf<Record>;
+  const std::span<Record> records = List::entries(world);
+  std::uint32_t count = 0;
+  for (const Configured& configured : std::span(list).first(std::min(list.size(), records.size()))) {
+    Record& record = records[count];
+    record.latitude_deg = configured.position.latitude_deg;
+    record.longitude_deg = configured.position.longitude_deg;
+    if constexpr (requires { record.name; }) write_name(record.name, configured.name);
+    copy_values(configured, record);
+    record.id = ++count;
   }
-  return count;
+  List::count(world) = count;
+  world.last_id = std::max(world.last_id, count);
+}
+
+template <class Record, class Configured>
+void read_list(const databuffer::WorldState& world, std::vector<Configured>& list) {
+  list.clear();
+  for (const Record& record : databuffer::ListOf<Record>::entries_in_use(world)) {
+    Configured& configured = list.emplace_back();
+    configured.position = {record.latitude_deg, record.longitude_deg};
+    if constexpr (requires { record.name; }) configured.name = std::string(text::text_of(record.name));
+    copy_values(record, configured);
+  }
+}
+
+// Calls use(type of the record's entries, list) for each list of a configured world.
+template <class World, class Use>
+void for_each_configured(World& world, const Use& use) {
+  databuffer::for_each_list([&]<class Record>(std::type_identity<Record> record) {
+    const auto use_if_same = [&]<class List>(List& list) {
+      if constexpr (std::is_same_v<typename List::value_type::Values, typename Record::Values>) use(record, list);
+    };
+    std::apply([&](auto&... lists) { (use_if_same(lists), ...); }, radar::lists_of(world));
+  });
 }
 
 }  // namespace
@@ -105,11 +115,9 @@ databuffer::WorldState world_state_from(const radar::WorldConfiguration& world,
   state.sea_state = world.sea.state;
   state.wind_speed_mps = world.sea.wind_speed_mps;
   state.wind_from_deg = world.sea.wind_from_deg;
-  state.rain_count = write_list(state.rain, world.rain.cells);
-  state.jammer_count = write_list(state.jammers, world.jamming.jammers);
-  state.mover_count = write_list(state.movers, world.movers);
-  state.point_count = write_list(state.points, route);
-  state.last_id = std::max({state.rain_count, state.jammer_count, state.mover_count, state.point_count});
+  for_each_configured(
+      world, [&]<class Record>(std::type_identity<Record>, const auto& list) { write_list<Record>(state, list); });
+  write_list<databuffer::WorldPoint>(state, std::vector(route.begin(), route.end()));
   return state;
 }
 
@@ -117,27 +125,13 @@ void apply(const databuffer::WorldState& state, radar::WorldConfiguration& world
   world.sea.state = state.sea_state;
   world.sea.wind_speed_mps = state.wind_speed_mps;
   world.sea.wind_from_deg = state.wind_from_deg;
-  world.rain.cells.clear();
-  for (const databuffer::WorldRainCell& cell : databuffer::used(state.rain, state.rain_count))
-    world.rain.cells.push_back(configured_with_values<radar::RainCell>(cell));
-  world.jamming.jammers.clear();
-  for (const databuffer::WorldJammer& jammer : databuffer::used(state.jammers, state.jammer_count)) {
-    radar::Jammer& added = world.jamming.jammers.emplace_back(configured_with_values<radar::Jammer>(jammer));
-    added.band = jammer.band;
-    added.channels = channels_of(jammer.channels);
-  }
-  world.movers.clear();
-  for (const databuffer::WorldMover& mover : databuffer::used(state.movers, state.mover_count)) {
-    radar::Mover& added = world.movers.emplace_back(configured_with_values<radar::Mover>(mover));
-    added.since = geo::Duration::seconds(static_cast<double>(mover.since_ns) * kSecondsPerNanosecond);
-  }
+  for_each_configured(world,
+                      [&]<class Record>(std::type_identity<Record>, auto& list) { read_list<Record>(state, list); });
 }
 
 std::vector<radar::RoutePoint> route_of(const databuffer::WorldState& state) {
   std::vector<radar::RoutePoint> route;
-  for (const databuffer::WorldPoint& point : databuffer::used(state.points, state.point_count))
-    route.emplace_back(configured_with_values<radar::RoutePoint>(point)).kind =
-        static_cast<radar::PointKind>(point.kind);
+  read_list<databuffer::WorldPoint>(state, route);
   return route;
 }
 

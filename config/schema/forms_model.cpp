@@ -97,7 +97,7 @@ std::vector<SlotSchema> reported_slots() {
 }
 
 std::vector<SlotSchema> system_slots() {
-  return with_base(
+  std::vector<SlotSchema> slots = with_base(
       reported_slots(),
       {{.name = "name", .binding = TextSlot{YARS_FIELD(radar.name)}, .purpose = "name of this radar"},
        {.name = "pulseWidths",
@@ -120,7 +120,7 @@ std::vector<SlotSchema> system_slots() {
        {.name = "land", .binding = FormSlot{{"Land"}, {"Land"}}, .purpose = "radar return of land"},
        {.name = "materials", .binding = FormSlot{{"Materials"}, {"Materials"}}, .purpose = "radar return of materials"},
        {.name = "sea", .binding = FormSlot{{"Sea"}, {"Sea"}}, .purpose = "radar return of the sea"},
-       {.name = "rain", .binding = FormSlot{{"Rain"}, {"Rain"}}, .purpose = "showers"},
+       {.name = "rain", .binding = FormSlot{{"Rain"}, {"Rain"}}, .purpose = "rain"},
        {.name = "jammers", .binding = FormSlot{{"Jammers"}, {"Jammers"}}, .purpose = "jammers"},
        {.name = "movers", .binding = FormSlot{{"Movers"}, {"Movers"}}, .purpose = "ships and vehicles"},
        {.name = "scenes", .binding = FormSlot{{"Scenes"}, {"Scenes"}}, .purpose = "polygonal scenes"},
@@ -141,6 +141,16 @@ std::vector<SlotSchema> system_slots() {
        {.name = "atmosphere",
         .binding = FormSlot{{"Atmosphere"}, {"Atmosphere"}},
         .purpose = "the air, and attenuation by its gases"}});
+  for (const FormSchema& form : list_forms()) {
+    const auto is_there = [&form](const SlotSchema& slot) {
+      const auto* const forms = std::get_if<FormSlot>(&slot.binding);
+      return forms != nullptr && forms->accepted.front() == form.name;
+    };
+    if (form.part_of_value || std::ranges::any_of(slots, is_there)) continue;
+    slots.push_back(
+        {.name = form.slots.front().name, .binding = FormSlot{{form.name}, {form.name}}, .purpose = form.purpose});
+  }
+  return slots;
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-// Forms of the configuration language GUF with their slots (schema.hpp): jammers, movers, scenes, beacons.
+// Forms of the configuration language GUF with their slots (schema.hpp): jammers, scenes, beacons.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "config/guf/tree.hpp"
+#include "config/schema/list_forms.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/world.hpp"
 
@@ -18,69 +19,48 @@ constexpr std::array<std::string_view, 6> kBands{"A", "B", "C", "D", "E", "all"}
 constexpr int kAllBands = 5;  // index of "all" in kBands
 
 std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& builder) {
-  const auto& channels = builder.jammer.channels;
+  const auto& channels = std::get<radar::Jammer>(builder.entries.of).channels;
   const auto fractional =
       std::find_if(channels.begin(), channels.end(), [](double channel) { return channel != std::floor(channel); });
   if (fractional != channels.end()) return ConstraintViolation{"channels", "whole numbers", number_text(*fractional)};
-  return check_entry(builder.jammer.position, builder.radar.world.jamming.jammers.size(), radar::kMaxJammers,
-                     "jammers");
+  return check_entry_read<radar::Jammer>(builder);
 }
 
 FormSchema jammer() {
-  return {
-      .name = "Jammer",
-      .purpose = "a transmitter of noise, seen as a strobe",
-      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "name, free text"},
-                latitude_slot(YARS_FIELD(jammer.position.latitude_deg)),
-                longitude_slot(YARS_FIELD(jammer.position.longitude_deg)),
-                entry_slot("altitude", values::WorldJammer::altitude, YARS_FIELD(jammer.altitude_m)),
-                {.name = "band",
-                 .binding = ChoiceSlot{kBands,
-                                       [](const ConfigurationBuilder& builder) {
-                                         return builder.jammer.band == radar::kEveryBand ? kAllBands
-                                                                                         : builder.jammer.band;
-                                       },
-                                       [](ConfigurationBuilder& builder, int index) {
-                                         builder.jammer.band = index == kAllBands ? radar::kEveryBand : index;
-                                       }},
-                 .purpose = "band that it jams; left out: all"},
-                {.name = "channels",
-                 .lowest = 1,
-                 .highest = radar::kChannels,
-                 .binding = ListSlot{YARS_FIELD(jammer.channels), 1, radar::kChannels, Order::ascending},
-                 .purpose = "channels that it jams; left out: all"},
-                entry_slot("power", values::WorldJammer::power, YARS_FIELD(jammer.power_w))},
-      .part_of_value = true,
-      .begin = [](ConfigurationBuilder& builder) { builder.jammer = {.name = {}, .position = {kNotGiven, kNotGiven}}; },
-      .check = check_jammer,
-      .end = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.push_back(builder.jammer); },
-      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.jamming.jammers.size(); },
-      .select = [](ConfigurationBuilder& builder,
-                   std::size_t index) { builder.jammer = builder.radar.world.jamming.jammers[index]; }};
+  FormSchema form = entry_form<radar::Jammer>();
+  form.check = check_jammer;
+  form.slots.insert(form.slots.end() - 1,  // before the power
+                    {SlotSchema{.name = "band",
+                                .binding = ChoiceSlot{kBands,
+                                                      [](const ConfigurationBuilder& builder) {
+                                                        const int band =
+                                                            std::get<radar::Jammer>(builder.entries.of).band;
+                                                        return band == radar::kEveryBand ? kAllBands : band;
+                                                      },
+                                                      [](ConfigurationBuilder& builder, int index) {
+                                                        entry_read<radar::Jammer>(builder).band =
+                                                            index == kAllBands ? radar::kEveryBand : index;
+                                                      }},
+                                .purpose = "band that it jams; left out: all"},
+                     SlotSchema{.name = "channels",
+                                .lowest = 1,
+                                .highest = radar::kChannels,
+                                .binding = ListSlot{[](ConfigurationBuilder& builder) -> auto& {
+                                                      return entry_read<radar::Jammer>(builder).channels;
+                                                    },
+                                                    1, radar::kChannels, Order::ascending},
+                                .purpose = "channels that it jams; left out: all"}});
+  return form;
 }
 
-std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& builder) {
-  return check_entry(builder.mover.position, builder.radar.world.movers.size(), radar::kMaxMovers, "movers");
-}
-
-FormSchema mover() {
-  return {
-      .name = "Mover",
-      .purpose = "a ship or a vehicle: a point that moves along a great circle",
-      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "name, free text"},
-                latitude_slot(YARS_FIELD(mover.position.latitude_deg)),
-                longitude_slot(YARS_FIELD(mover.position.longitude_deg)),
-                entry_slot("speed", values::WorldMover::speed, YARS_FIELD(mover.speed_mps)),
-                entry_slot("heading", values::WorldMover::heading, YARS_FIELD(mover.heading_deg)),
-                entry_slot("crossSection", values::WorldMover::cross_section, YARS_FIELD(mover.cross_section_m2)),
-                entry_slot("height", values::WorldMover::height, YARS_FIELD(mover.height_m))},
-      .part_of_value = true,
-      .begin = [](ConfigurationBuilder& builder) { builder.mover = {.name = {}, .position = {kNotGiven, kNotGiven}}; },
-      .check = check_mover,
-      .end = [](ConfigurationBuilder& builder) { builder.radar.world.movers.push_back(builder.mover); },
-      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.movers.size(); },
-      .select = [](ConfigurationBuilder& builder,
-                   std::size_t index) { builder.mover = builder.radar.world.movers[index]; }};
+FormSchema jammers() {
+  FormSchema form = list_form<radar::Jammer>(
+      "jammers", {number_slot("radarPower", "dBW", 0, 120, {YARS_FIELD(radar.world.jamming.radar_power_dbw)},
+                              "the radar's effective radiated peak power"),
+                  number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
+                              "minimum one-way gain of the antenna, relative to the beam centre")});
+  form.purpose = "jammers, and the power and sidelobes of the jammed radar";
+  return form;
 }
 
 // Words in the order of radar::SceneHeights.
@@ -133,25 +113,8 @@ FormSchema scene() {
 }  // namespace
 
 std::vector<FormSchema> traffic_forms() {
-  return {{.name = "Jammers",
-           .purpose = "jammers, and the power and sidelobes of the jammed radar",
-           .slots = {list_slot(
-                         "jammers", "Jammer",
-                         [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.clear(); },
-                         replaced_list(radar::kMaxJammers, "jammers")),
-                     number_slot("radarPower", "dBW", 0, 120, {YARS_FIELD(radar.world.jamming.radar_power_dbw)},
-                                 "the radar's effective radiated peak power"),
-                     number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
-                                 "minimum one-way gain of the antenna, relative to the beam centre"),
-                     more_slot("moreJammers", "Jammer", "jammers", "jammers beside those of earlier forms")}},
+  return {jammers(),
           jammer(),
-          {.name = "Movers",
-           .purpose = "ships and vehicles",
-           .slots = {list_slot(
-                         "movers", "Mover", [](ConfigurationBuilder& builder) { builder.radar.world.movers.clear(); },
-                         replaced_list(radar::kMaxMovers, "movers")),
-                     more_slot("moreMovers", "Mover", "movers", "movers beside those of earlier forms")}},
-          mover(),
           {.name = "Scenes",
            .purpose = "polygonal scenes",
            .slots = {list_slot(
@@ -160,6 +123,16 @@ std::vector<FormSchema> traffic_forms() {
                                        "scenes; a scene without position is placed by the file's name or header")),
                      more_slot("moreScenes", "Scene", "scenes", "scenes beside those of earlier forms")}},
           scene()};
+}
+
+std::vector<FormSchema> list_forms() {
+  std::vector<FormSchema> forms;
+  const auto add = [&forms]<class Entry>(const Entry& /*of the list*/) {
+    forms.push_back(list_form<Entry>());
+    forms.push_back(entry_form<Entry>());
+  };
+  std::apply([&add](const auto&... entry) { (add(entry), ...); }, radar::ListEntries().of);
+  return forms;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "config/guf/tree.hpp"
+#include "config/schema/list_forms.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/world.hpp"
 
@@ -237,36 +238,9 @@ FormSchema sea() {
                                 "shape parameter of the sea's texture; small = spiky, 0 = none")}};
 }
 
-std::optional<ConstraintViolation> check_rain_cell(const ConfigurationBuilder& builder) {
-  return check_entry(builder.rain_cell.position, builder.radar.world.rain.cells.size(), radar::kMaxRainCells,
-                     "showers");
-}
-
-FormSchema rain_cell() {
-  return {.name = "RainCell",
-          .purpose = "a shower: heaviest in the middle, nothing at the rim",
-          .slots = {latitude_slot(YARS_FIELD(rain_cell.position.latitude_deg)),
-                    longitude_slot(YARS_FIELD(rain_cell.position.longitude_deg)),
-                    entry_slot("radius", values::WorldRainCell::radius, YARS_FIELD(rain_cell.radius_m)),
-                    entry_slot("rate", values::WorldRainCell::rate, YARS_FIELD(rain_cell.rate_mmh)),
-                    entry_slot("top", values::WorldRainCell::top, YARS_FIELD(rain_cell.top_m))},
-          .part_of_value = true,
-          .begin = [](ConfigurationBuilder& builder) { builder.rain_cell = {.position = {kNotGiven, kNotGiven}}; },
-          .check = check_rain_cell,
-          .end = [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.push_back(builder.rain_cell); },
-          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.rain.cells.size(); },
-          .select = [](ConfigurationBuilder& builder,
-                       std::size_t index) { builder.rain_cell = builder.radar.world.rain.cells[index]; }};
-}
-
 FormSchema rain() {
-  return {
-      .name = "Rain",
-      .purpose = "showers, and echo and attenuation of rain",
-      .slots = {list_slot(
-                    "cells", "RainCell", [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.clear(); },
-                    replaced_list(radar::kMaxRainCells, "showers")),
-                number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
+  FormSchema form = list_form<radar::RainCell>(
+      "cells", {number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
                             "a of Z = a r^b, Z in mm^6/m^3, rain rate r in mm/h (Marshall and Palmer)"),
                 number_slot("reflectivityExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.reflectivity_exponent)},
                             "b of Z = a r^b"),
@@ -275,8 +249,9 @@ FormSchema rain() {
                 number_slot("attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
                             "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
                 number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
-                            "b of k r^b"),
-                more_slot("moreCells", "RainCell", "cells", "showers beside those of earlier forms")}};
+                            "b of k r^b")});
+  form.purpose = "rain cells, and echo and attenuation of rain";
+  return form;
 }
 
 FormSchema atmosphere() {
@@ -305,7 +280,6 @@ std::vector<FormSchema> world_forms() {
           material(),
           sea(),
           rain(),
-          rain_cell(),
           atmosphere()};
 }
 

@@ -19,9 +19,7 @@ struct ConfigurationBuilder::Storage {
   radar::RoutePoint point;
   radar::Rgb color;
   radar::Material material;
-  radar::RainCell rain_cell;
-  radar::Jammer jammer;
-  radar::Mover mover;
+  radar::ListEntries entries;
   radar::Scene scene;
   radar::Beacon beacon;
   radar::Device device;
@@ -61,9 +59,7 @@ ConfigurationBuilder::ConfigurationBuilder(Storage& storage)
       point(storage.point),
       color(storage.color),
       material(storage.material),
-      rain_cell(storage.rain_cell),
-      jammer(storage.jammer),
-      mover(storage.mover),
+      entries(storage.entries),
       scene(storage.scene),
       beacon(storage.beacon),
       device(storage.device),
@@ -87,6 +83,10 @@ namespace {
 
 char lower(char letter) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+}
+
+char upper(char letter) {
+  return static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
 }
 
 bool equal_ignoring_case(std::string_view left, std::string_view right) {
@@ -113,6 +113,9 @@ std::vector<FormSchema> all_forms() {
         navigation_forms, traffic_forms, limit_forms, beacon_forms, device_forms, network_forms, value_forms}) {
     for (FormSchema& form : group()) forms.push_back(std::move(form));
   }
+  // A form that another group has, because it has further slots, is there already.
+  for (FormSchema& form : list_forms())
+    if (!find_named(forms, form.name).schema) forms.push_back(std::move(form));
   return forms;
 }
 
@@ -243,6 +246,30 @@ std::string_view kept(std::string text) {
 }
 
 }  // namespace
+
+std::string_view plural(const values::List& list) {
+  return kept(std::string(list.entry) + 's');
+}
+
+std::string_view purpose_of(const values::List& list) {
+  return kept("the " + std::string(plural(list)));
+}
+
+std::string_view slot_name(const values::Field& field) {
+  std::string name;
+  bool begins_word = false;
+  for (const char letter : field.label) {
+    if (letter != ' ') name += begins_word ? upper(letter) : letter;
+    begins_word = letter == ' ';
+  }
+  return kept(name);
+}
+
+SlotSchema more_slot(std::string_view slot, const values::List& list) {
+  std::string name = "more" + std::string(slot);
+  name[4] = upper(name[4]);
+  return more_slot(kept(name), list.form, slot, kept(std::string(plural(list)) + " beside those of earlier forms"));
+}
 
 std::string_view replaced_list(int most, std::string_view entries) {
   return kept("at most " + std::to_string(most) + " " + std::string(entries) + "; they replace those of earlier forms");

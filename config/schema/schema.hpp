@@ -31,13 +31,11 @@ struct DeviceButton;
 struct Fidelity;
 struct HeightRanges;
 struct HighResolutionConfiguration;
-struct Jammer;
+struct ListEntries;
 struct Material;
-struct Mover;
 struct NavigationConfiguration;
 struct NetworkSettings;
 struct RadarConfiguration;
-struct RainCell;
 struct ReceiverConfiguration;
 struct Rgb;
 struct RoutePoint;
@@ -111,9 +109,7 @@ struct ConfigurationBuilder {
   radar::Rgb& color;  // the colour read last; FormSlot::store copies it to the field of the slot that contains it
   HueSaturationValue hue{};
   radar::Material& material;
-  radar::RainCell& rain_cell;
-  radar::Jammer& jammer;
-  radar::Mover& mover;
+  radar::ListEntries& entries;  // the entry of each list of the world that was read last
   radar::Scene& scene;
   radar::Beacon& beacon;
   radar::Device& device;
@@ -278,9 +274,10 @@ std::vector<FormSchema> display_forms();     // Window, ColorScheme, Display, Rb
 std::vector<FormSchema> database_forms();    // Database, DedDbase, MgDbase, Terrain
 std::vector<FormSchema> model_forms();       // Fidelity, HighResolution, Receiver, Noise
 std::vector<FormSchema> route_forms();       // Route, Point
-std::vector<FormSchema> world_forms();       // Land, Materials, Material, Sea, Rain, RainCell, Atmosphere
+std::vector<FormSchema> world_forms();       // Land, Materials, Material, Sea, Rain, Atmosphere
 std::vector<FormSchema> navigation_forms();  // Navigation
-std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Movers, Mover, Scenes, Scene
+std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Scenes, Scene
+std::vector<FormSchema> list_forms();        // of the lists of the world: two of each, as Movers and Mover
 std::vector<FormSchema> limit_forms();       // WindowLimits, HeightRanges
 std::vector<FormSchema> beacon_forms();      // Beacons, Beacon
 std::vector<FormSchema> device_forms();      // Devices, Device, Button, Axis
@@ -294,6 +291,13 @@ std::optional<ConstraintViolation> check_coordinates(geo::GeoPoint position);
 // Rules of an entry of a list: there are fewer than `most` so far, and it has coordinates.
 std::optional<ConstraintViolation> check_entry(geo::GeoPoint position, std::size_t count, int most,
                                                std::string_view entries);
+
+// Entries of a list, "rain cells".
+std::string_view plural(const values::List& list);
+// Purpose of the form of a list, "the rain cells".
+std::string_view purpose_of(const values::List& list);
+// Name of the slot of a value, "crossSection".
+std::string_view slot_name(const values::Field& field);
 
 // Purpose of the list of these entries.
 std::string_view replaced_list(int most, std::string_view entries);
@@ -320,6 +324,8 @@ inline SlotSchema more_slot(std::string_view name, std::string_view form, std::s
           .purpose = purpose,
           .same_as = list};
 }
+// The same for a list of the world: `moreCells` beside the slot `cells`.
+SlotSchema more_slot(std::string_view slot, const values::List& list);
 
 // Slot of a value that lib/values describes. Its purpose says what holds where the slot is left out, if that is no
 // number.

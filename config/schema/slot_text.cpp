@@ -238,8 +238,8 @@ struct FormGroup {
   std::vector<std::string_view> forms;
 };
 
-const std::vector<FormGroup>& groups() {
-  static const std::vector<FormGroup> table{
+std::vector<FormGroup> all_groups() {
+  std::vector<FormGroup> table{
       {"radar", {"System", "Apg70"}},
       {"antenna", {"AntennaServo", "RbmAntenna", "Receiver", "Noise"}},
       {"modes",
@@ -254,6 +254,14 @@ const std::vector<FormGroup>& groups() {
       {"network", {"Network"}},
       {"fidelity", {"Fidelity"}},
       {"values", {"rgb", "rgba", "hsv", "hsva", "lat-long"}}};
+  std::vector<std::string_view>& of_world = std::ranges::find(table, "world", &FormGroup::name)->forms;
+  for (const FormSchema& form : list_forms())
+    if (std::ranges::find(of_world, form.name) == of_world.end()) of_world.push_back(form.name);
+  return table;
+}
+
+const std::vector<FormGroup>& groups() {
+  static const std::vector<FormGroup> table = all_groups();
   return table;
 }
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/record_checks.hpp"
+#include "databuffer/messages/world_lists.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/route.hpp"
 #include "lib/text/plain_text.hpp"
@@ -64,14 +67,14 @@ Refusal validate(const Caption& caption) {
 namespace {
 
 // Checks that no two of the entries in use have the same id.
-template <class Entry, std::size_t size>
-void inspect_ids(Inspection& inspection, const std::string& list, const Entry (&entries)[size], std::uint32_t count) {
-  const auto in_use = used(entries, count);
+template <class Entry>
+void inspect_ids(Inspection& inspection, std::string_view list, std::span<const Entry> in_use) {
   for (std::size_t i = 1; i < in_use.size(); ++i) {
     const std::uint32_t id = in_use[i].id;
     const auto earlier = in_use.first(i);
     if (std::ranges::find(earlier, id, &Entry::id) != earlier.end())
-      inspection.fault(list + '[' + std::to_string(i) + "].id", "an id that no earlier entry has", std::to_string(id));
+      inspection.fault(std::string(list) + '[' + std::to_string(i) + "].id", "an id that no earlier entry has",
+                       std::to_string(id));
   }
 }
 
@@ -97,10 +100,9 @@ void inspect_points(Inspection& inspection, std::span<const WorldPoint> points) 
 Refusal validate(const WorldState& world) {
   Inspection inspection;
   check_fields(inspection, world);
-  inspect_ids(inspection, "rain", world.rain, world.rain_count);
-  inspect_ids(inspection, "jammers", world.jammers, world.jammer_count);
-  inspect_ids(inspection, "movers", world.movers, world.mover_count);
-  inspect_ids(inspection, "points", world.points, world.point_count);
+  for_each_list([&]<class Entry>(std::type_identity<Entry>) {
+    inspect_ids(inspection, Entry::Values::list.name, ListOf<Entry>::entries_in_use(world));
+  });
   inspect_points(inspection, used(world.points, world.point_count));
   return inspection.result();
 }

@@ -10,6 +10,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/values/defaults.hpp"
 
 namespace yars::radar {
 
@@ -38,7 +39,8 @@ struct NavigationConfiguration {
 
 // Sequence point of the route; names as in docs/pilots_manual.md#rule-11.
 struct RoutePoint {
-  std::string name;  // "2", "2.", "2.1", "2.01"
+  using Values = values::WorldPoint;  // lib/values/fields.hpp
+  std::string name;                   // "2", "2.", "2.1", "2.01"
   PointKind kind = PointKind::steer;
   geo::GeoPoint position;
   double elevation_m = 0.0;  // [m] above mean sea level; NaN = unknown

@@ -6,6 +6,8 @@
 
 #include <limits>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
@@ -64,6 +66,7 @@ struct SeaConfiguration {
 // Rain cell (shower): a vertical cylinder. Return and attenuation of the rain are greatest at the axis. They are zero
 // at the rim and above the top.
 struct RainCell {
+  using Values = values::WorldRainCell;  // lib/values/fields.hpp
   geo::GeoPoint position;
   double radius_m = values::WorldRainCellDefaults::radius_m;
   double rate_mmh = values::WorldRainCellDefaults::rate_mmh;  // at the axis
@@ -85,6 +88,7 @@ inline constexpr int kEveryBand = -1;  // Jammer::band of a jammer in all bands
 
 // Noise jammer. On the display the jammer causes a strobe, a bright line in its direction.
 struct Jammer {
+  using Values = values::WorldJammer;  // lib/values/fields.hpp
   std::string name;
   geo::GeoPoint position;
   double altitude_m = kNotGiven;                          // [m] above mean sea level; kNotGiven: 10 m above ground
@@ -118,6 +122,7 @@ struct BeaconConfiguration {
 
 // Moving target: a point that follows a geodesic at constant speed.
 struct Mover {
+  using Values = values::WorldMover;  // lib/values/fields.hpp
   std::string name;
   geo::GeoPoint position;                                        // position at sim time `since`
   double speed_mps = values::WorldMoverDefaults::speed_mps;      // over ground
@@ -158,6 +163,19 @@ struct WorldConfiguration {
   std::vector<Mover> movers;
   std::vector<Scene> scenes;
   BeaconConfiguration beacons;
+};
+
+// The lists of a world whose entries an instructor changes, too (lib/values/world_state.idl).
+template <class World>
+auto lists_of(World& world) {
+  return std::tie(world.rain.cells, world.jamming.jammers, world.movers);
+}
+
+// An entry of each of these lists.
+struct ListEntries {
+  template <class... Lists>
+  static std::tuple<typename Lists::value_type...> entries_of(std::tuple<Lists&...> lists);
+  decltype(entries_of(lists_of(std::declval<WorldConfiguration&>()))) of;
 };
 
 // Which parts of the world that an instructor changes at run time differ between two worlds.

@@ -6,9 +6,10 @@ usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for
                                     FOLDER
        generate.py --tables FILE    the page of all records, fields and values, in Markdown; needs no build
        generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h,
-                                    station/web/src/values.ts, and the marked parts of python/yars/session.py,
-                                    results.pyi and dataset/keys.py; the table of writers in docs/shared_memory.md;
-                                    the lists of presets in the files that generator/presets.py names
+                                    station/web/src/values.ts; the marked parts of docs/commands.md and, in
+                                    python/yars/, session.py, results.pyi and dataset/keys.py; the table of writers in
+                                    docs/shared_memory.md; the lists of presets in the files that generator/presets.py
+                                    names
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
 YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
 segment's containers (`yars status --layout`). A fault in the IDL is reported in one line: file:line, what was expected,
@@ -30,6 +31,7 @@ PYTHON = "python/yars/session.py"
 STUB = "python/yars/results.pyi"
 KEYS = "python/yars/dataset/keys.py"
 PAGES = "station/web/src/values.ts"
+COMMANDS = "docs/commands.md"
 LAYOUT = "lib/values/layout.tsv"
 BEGIN, END = "# begin: lib/values/generate.py\n", "# end: lib/values/generate.py\n"  # the part of PYTHON
 
@@ -52,6 +54,7 @@ def described_segment():
 def build(folder, chapters):
     made = {**cpp.files(chapters), **segment.files(described_segment())}
     made["databuffer/client/yars_records_check.hpp"] = clients.c_asserts(chapters)
+    made[fields.LISTS] = fields.lists_header(chapters)
     made["gateway/yars_records.idl"] = dds.idl(chapters)
     made["gateway/dds/yars_records_check.cpp"] = dds.asserts(chapters)
     write_all(folder, made)
@@ -109,6 +112,8 @@ def tree_files(chapters, layout, root):
     made[STUB] = stub
     keys = with_part(KEYS, text_of(root / KEYS), "")
     made[KEYS] = with_part(KEYS, keys, fields.python_values(chapters, requests, keys))
+    made[COMMANDS] = with_part(COMMANDS, text_of(root / COMMANDS), fields.lists_table(chapters),
+                               f"<!-- {BEGIN[2:-1]} -->\n", f"<!-- {END[2:-1]} -->\n")
     kinds = preset_kinds()
     try:
         made[PAGES] = fields.typescript(chapters, requests) + presets.typescript(kinds, text_of(root / presets.PAGE))

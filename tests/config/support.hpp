@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "config/schema/load.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::config::testing {
 
@@ -83,22 +84,25 @@ inline auto fields(const radar::Material& material) {
   return std::tuple(code, name, gamma, cardinal, texture);
 }
 
-inline auto fields(const radar::RainCell& cell) {
-  const auto& [position, radius, rate, top] = cell;
-  const auto& [latitude, longitude] = position;
-  return std::tuple(latitude, longitude, radius, rate, top);
+// Position and values of an entry of a list of the world.
+template <class Entry>
+auto given(const Entry& entry) {
+  return std::apply(
+      [&entry](const auto&... member) {
+        return std::tuple(entry.position.latitude_deg, entry.position.longitude_deg, comparable(member(entry))...);
+      },
+      Entry::Values::members);
 }
-
 inline auto fields(const radar::Jammer& jammer) {
-  const auto& [name, position, altitude, band, channels, power] = jammer;
-  const auto& [latitude, longitude] = position;
-  return std::tuple(name, latitude, longitude, comparable(altitude), band, channels, power);
+  return std::tuple(jammer.name, given(jammer), jammer.band, jammer.channels);
 }
-
 inline auto fields(const radar::Mover& mover) {
-  const auto& [name, position, speed, heading, section, height, since] = mover;
-  const auto& [latitude, longitude] = position;
-  return std::tuple(name, latitude, longitude, speed, heading, section, height, since / geo::Duration::seconds(1.0));
+  return std::tuple(mover.name, given(mover), mover.since / geo::Duration::seconds(1.0));
+}
+template <class Entry>
+  requires requires { Entry::Values::list; }
+auto fields(const Entry& entry) {
+  return given(entry);
 }
 
 inline auto fields(const radar::Scene& scene) {
@@ -143,19 +147,19 @@ auto fields_of_all(const std::vector<Record>& records) {
 }
 
 inline auto fields(const radar::WorldConfiguration& world) {
-  const auto& [land, sea, rain, atmosphere, jamming, movers, scenes, beaconing] = world;
-  const auto& [slope, reference, street, land_texture, materials] = land;
-  const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture] = sea;
-  const auto& [a, b, dielectric, k, exponent, cells] = rain;
-  const auto& [gases, temperature, pressure, water] = atmosphere;
-  const auto& [radar_power, sidelobes, jammers] = jamming;
-  const auto& [beacon_code, beacons] = beaconing;
+  const auto& [slope, reference, street, land_texture, materials] = world.land;
+  const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture] = world.sea;
+  const auto& [a, b, dielectric, k, exponent, cells] = world.rain;
+  const auto& [gases, temperature, pressure, water] = world.atmosphere;
+  const auto& [radar_power, sidelobes, jammers] = world.jamming;
+  const auto& [beacon_code, beacons] = world.beacons;
+  const auto lists =
+      std::apply([](const auto&... list) { return std::tuple(fields_of_all(list)...); }, radar::lists_of(world));
   return std::tuple(std::tuple(slope, reference, street, land_texture, fields_of_all(materials)),
                     std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor, sea_texture),
-                    std::tuple(a, b, dielectric, k, exponent, fields_of_all(cells)),
-                    std::tuple(gases, temperature, pressure, water),
-                    std::tuple(radar_power, sidelobes, fields_of_all(jammers)), fields_of_all(movers),
-                    fields_of_all(scenes), std::tuple(beacon_code, fields_of_all(beacons)));
+                    std::tuple(a, b, dielectric, k, exponent), std::tuple(gases, temperature, pressure, water),
+                    std::tuple(radar_power, sidelobes), lists, fields_of_all(world.scenes),
+                    std::tuple(beacon_code, fields_of_all(beacons)));
 }
 
 inline auto fields(const radar::WindowLimits& limits) {

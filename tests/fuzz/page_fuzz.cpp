@@ -32,9 +32,10 @@ station::AccessRules rules() {
 // A world with an entry in each list, so that a message can find one.
 databuffer::WorldState small_world() {
   databuffer::WorldState world = world::world_state_from(radar::WorldConfiguration());
-  YARS_REQUIRE(world::add(world, world::default_rain_cell({37.0, -122.0})).has_value(), ==, true);
-  YARS_REQUIRE(world::add(world, world::default_jammer({37.0, -122.0})).has_value(), ==, true);
-  YARS_REQUIRE(world::add(world, world::default_mover({37.0, -122.0}, 0)).has_value(), ==, true);
+  for (std::size_t list = 0; list < databuffer::kWorldLists.size(); ++list) {
+    const auto entry = world::default_entry(world, static_cast<world::WorldList>(list), {37.0, -122.0}, 0);
+    YARS_REQUIRE(entry && world::add(world, *entry), ==, true);
+  }
   return world;
 }
 

@@ -5,6 +5,7 @@ usage: json_output_test.py BIN
 """
 import json
 import os
+import re
 import pathlib
 import shlex
 import subprocess
@@ -128,14 +129,20 @@ def world():
             time.sleep(0.05)
         configured = object_of("world", "--json")
         expect("world", configured["configured"] and configured["sea_state"] is None, configured)
-        for words in (["sea", "3"], ["wind", "20", "90"], ["rain", "add", "37", "-122"],
-                      ["jammer", "add", "37", "-122"], ["mover", "add", "37", "-122"],
-                      ["mover", "steer", "3", "5", "90"]):
+        lists = re.findall(r"^\| `(\w+)` \| `yars world (\w+)` \|", DOCUMENT.read_text(), re.M)
+        for kind, command in lists:
+            changed = object_of("world", command, "add", "37", "-122", "--json")
+            expect("world", all(f"`{field}`" in DOCUMENT.read_text() for field in changed[kind][-1]), changed)
+            entry = str(changed[kind][-1]["id"])
+            changed = object_of("world", command, "change", entry, "--json")
+            expect("world", str(changed[kind][-1]["id"]) == entry, changed)
+        expect("world", {kind for kind, of_kind in changed.items() if isinstance(of_kind, list)} ==
+               {kind for kind, _ in lists}, changed)
+        mover = str(changed["movers"][0]["id"])
+        for words in (["sea", "3"], ["wind", "20", "90"], ["mover", "steer", mover, "5", "90"]):
             changed = object_of("world", *words, "--json")
-        for kind in ("rain", "jammers", "movers"):
-            expect("world", len(changed[kind]) == 1 and
-                   all(f"`{field}`" in DOCUMENT.read_text() for field in changed[kind][0]), changed)
-        expect("world", (changed["edit"], changed["sea_state"], changed["movers"][0]["id"]) == (6, 3, 3), changed)
+        expect("world", (changed["edit"], changed["sea_state"], changed["wind_kt"], changed["movers"][0]["speed_kt"])
+               == (2 * len(lists) + 3, 3, 20, 5), changed)
         expect("world reset", object_of("world", "reset", "--json")["rain"] == [])
     finally:
         model.terminate()

@@ -177,17 +177,22 @@ const tests = {
     await until("the configured points", () => world().points.length === configured);
     await noProblem(page);
   },
-  async "jammers and movers are added, dragged, changed and removed"(page) {
-    for (const list of ["jammers", "movers"]) {
+  async "entries of all lists are added, dragged, changed and removed"(page) {
+    const lists = Object.keys(world()).filter((name) => Array.isArray(world()[name]));
+    const configured = lists.map((list) => world()[list].length);
+    for (const list of lists) {
+      const known = world()[list].map(({ id }) => id);
+      const added = () => world()[list].find(({ id }) => !known.includes(id));
       await page.click(`#add_${list}`);
       await page.mouse.click(...await middle(page, 80, 60));
-      await onMap(page, list.slice(0, -1));
-      const before = world()[list][0];
+      await until(`one more of ${list}`, added);
+      const before = added();
+      await onMap(page, list === "points" ? `point ${before.name}` : list.replace(/s$/, ""));
       await page.mouse.move(...await middle(page, 80, 60));
       await page.mouse.down();
       await page.mouse.move(...await middle(page, -80, 90), { steps: 5 });
       await page.mouse.up();
-      await until("moved", () => world()[list][0].longitude_deg < before.longitude_deg - 0.001);
+      await until("moved", () => added().longitude_deg < before.longitude_deg - 0.001);
     }
     await page.click("#things li:has-text('mover') button");
     await page.fill("#thing_speed_kt", "25");
@@ -196,7 +201,7 @@ const tests = {
     await until("the mover's way",
       () => near(world().movers[0].speed_kt, 25, 0.01) && near(world().movers[0].heading_deg, 270, 0.1));
     await page.click("#reset_world");
-    await until("the configured world", () => world().jammers.length + world().movers.length === 0);
+    await until("the configured world", () => lists.every((list, at) => world()[list].length === configured[at]));
     await noProblem(page);
   },
   async "what was removed comes back as it was"(page) {

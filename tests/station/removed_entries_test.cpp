@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <utility>
 
 #include "lib/radar/world.hpp"
+#include "tests/world/new_entries.hpp"
 #include "world/world_values.hpp"
 
 namespace yars::station {
@@ -16,13 +18,12 @@ using databuffer::WorldState;
 using ::testing::HasSubstr;
 using world::WorldList;
 
-// A world with a rain cell, a jammer, a mover and a sequence point, with the ids 1, 2, 3 and 4.
+// A world with an entry in each list, with the ids 1, 2 and so on; a mover is where it is at 5 ns.
 WorldState a_world() {
   WorldState world = world::world_state_from(radar::WorldConfiguration());
-  EXPECT_TRUE(world::add(world, world::default_rain_cell({37.0, -122.0})));
-  EXPECT_TRUE(world::add(world, world::default_jammer({36.0, -122.0})));
-  EXPECT_TRUE(world::add(world, world::default_mover({35.0, -122.0}, 5)));
-  EXPECT_TRUE(world::add(world, world::default_point(world, {34.0, -122.0}).value()));
+  databuffer::for_each_list([&world]<class Entry>(std::type_identity<Entry>) {
+    EXPECT_TRUE(world::add(world, world::new_entry<Entry>(world, {37.0, -122.0}, 5).value()));
+  });
   return world;
 }
 
@@ -37,19 +38,18 @@ WorldState without(RemovedEntries& removed, const WorldState& world, WorldList l
 TEST(RemovedEntries, AnEntryOfEachListComesBack) {
   RemovedEntries removed;
   const WorldState full = a_world();
-  WorldState world = without(removed, full, WorldList::rain, 1);
-  world = without(removed, world, WorldList::jammers, 2);
-  world = without(removed, world, WorldList::movers, 3);
-  world = without(removed, world, WorldList::points, 4);
-  ASSERT_EQ(world.rain_count + world.jammer_count + world.mover_count + world.point_count, 0U);
-  ASSERT_TRUE(removed.restore(world, WorldList::rain, 1));
-  ASSERT_TRUE(removed.restore(world, WorldList::jammers, 2));
-  ASSERT_TRUE(removed.restore(world, WorldList::movers, 3));
-  EXPECT_EQ(world.rain[0].latitude_deg, 37.0);
-  EXPECT_EQ(world.jammers[0].latitude_deg, 36.0);
-  EXPECT_EQ(world.movers[0].since_ns, 5);
-  ASSERT_TRUE(removed.restore(world, WorldList::points, 4));
-  EXPECT_EQ(world.points[0].latitude_deg, 34.0);
+  WorldState world = full;
+  std::uint32_t id = 0;
+  databuffer::for_each_list([&]<class Entry>(std::type_identity<Entry>) {
+    world = without(removed, world, databuffer::ListOf<Entry>::list, ++id);
+    EXPECT_EQ(databuffer::ListOf<Entry>::count(world), 0U);
+  });
+  id = 0;
+  databuffer::for_each_list([&]<class Entry>(std::type_identity<Entry>) {
+    using List = databuffer::ListOf<Entry>;
+    ASSERT_TRUE(removed.restore(world, List::list, ++id));
+    EXPECT_EQ(std::memcmp(&List::entries(world)[0], &List::entries(full)[0], sizeof(Entry)), 0);
+  });
 }
 
 TEST(RemovedEntries, WhatWasChangedBetweenTwoRemovalsComesBackChanged) {
@@ -78,7 +78,7 @@ TEST(RemovedEntries, TheOldestAreForgotten) {
   RemovedEntries removed;
   WorldState world = without(removed, a_world(), WorldList::rain, 1);
   for (std::size_t i = 0; i < RemovedEntries::kMaxEntries; ++i) {
-    const auto id = world::add(world, world::default_rain_cell({37.0, -122.0}));
+    const auto id = world::add(world, world::new_rain_cell({37.0, -122.0}));
     ASSERT_TRUE(id);
     world = without(removed, world, WorldList::rain, *id);
   }

@@ -12,6 +12,7 @@
 #include "databuffer/messages/validation.hpp"
 #include "lib/radar/route.hpp"
 #include "lib/values/fields.hpp"
+#include "tests/world/new_entries.hpp"
 #include "world/world_values.hpp"
 
 namespace yars::world {
@@ -76,9 +77,9 @@ TEST(WorldValues, LongAndForeignNamesAreCutToWhatARecordHas) {
 
 TEST(WorldEdit, AddsEntriesWithIdsOfTheirOwn) {
   databuffer::WorldState world = a_world();
-  EXPECT_EQ(add(world, default_rain_cell({38.0, -123.0})), 2U);
-  EXPECT_EQ(add(world, default_jammer({38.0, -123.0})), 3U);
-  EXPECT_EQ(add(world, default_mover({38.0, -123.0}, 5 * kSecond_ns)), 4U);
+  EXPECT_EQ(add(world, new_rain_cell({38.0, -123.0})), 2U);
+  EXPECT_EQ(add(world, new_jammer({38.0, -123.0})), 3U);
+  EXPECT_EQ(add(world, new_mover({38.0, -123.0}, 5 * kSecond_ns)), 4U);
   EXPECT_EQ(world.rain_count, 2U);
   EXPECT_EQ(world.rain[1].latitude_deg, 38.0);
   EXPECT_EQ(world.movers[1].since_ns, 5 * kSecond_ns);
@@ -86,9 +87,31 @@ TEST(WorldEdit, AddsEntriesWithIdsOfTheirOwn) {
   EXPECT_EQ(world.flags & databuffer::kWorldConfigured, 0U) << "an edited world is not the configuration's";
 }
 
+TEST(WorldEdit, AnEntryOfEachListIsAddedMovedChangedAndRemoved) {
+  databuffer::WorldState world{};
+  std::uint32_t id = 0;
+  databuffer::for_each_list([&]<class Entry>(std::type_identity<Entry>) {
+    SCOPED_TRACE(Entry::Values::list.name);
+    using List = databuffer::ListOf<Entry>;
+    const auto entry = new_entry<Entry>(world, {38.0, -123.0});
+    ASSERT_TRUE(entry && add(world, *entry) == ++id) << "ids of all lists count together";
+    ASSERT_TRUE(move(world, List::list, id, {39.0, -123.0}, 0));
+    auto changed = std::get<Entry>(entry_with(world, List::list, id, 0).value());
+    EXPECT_EQ(changed.latitude_deg, 39.0);
+    changed.longitude_deg = -120.0;
+    ASSERT_TRUE(replace(world, changed));
+    EXPECT_EQ(List::entries_in_use(world).front().longitude_deg, -120.0);
+    EXPECT_EQ(databuffer::validate(world), std::nullopt);
+    ASSERT_TRUE(remove(world, List::list, id));
+    EXPECT_EQ(List::count(world), 0U);
+    ASSERT_TRUE(restore(world, changed));
+  });
+  EXPECT_EQ(databuffer::validate(world), std::nullopt);
+}
+
 TEST(WorldEdit, RemovesTheEntryWithTheIdAndKeepsTheOrderOfTheOthers) {
   databuffer::WorldState world = a_world();
-  for (const double longitude_deg : {1.0, 2.0, 3.0}) ASSERT_TRUE(add(world, default_rain_cell({0.0, longitude_deg})));
+  for (const double longitude_deg : {1.0, 2.0, 3.0}) ASSERT_TRUE(add(world, new_rain_cell({0.0, longitude_deg})));
   ASSERT_TRUE(remove(world, WorldList::rain, 2));
   ASSERT_EQ(world.rain_count, 3U);
   EXPECT_EQ(world.rain[1].longitude_deg, 2.0);
@@ -101,23 +124,23 @@ TEST(WorldEdit, RemovesTheEntryWithTheIdAndKeepsTheOrderOfTheOthers) {
 
 TEST(WorldEdit, GivesARemovedEntrysIdToNoOther) {
   databuffer::WorldState world = a_world();
-  ASSERT_EQ(add(world, default_rain_cell({0.0, 0.0})), 2U);
+  ASSERT_EQ(add(world, new_rain_cell({0.0, 0.0})), 2U);
   ASSERT_TRUE(remove(world, WorldList::rain, 2));
-  EXPECT_EQ(add(world, default_rain_cell({0.0, 0.0})), 3U);
+  EXPECT_EQ(add(world, new_rain_cell({0.0, 0.0})), 3U);
 }
 
 TEST(WorldEdit, AfterTheGreatestIdGivesTheLeastFreeOne) {
   databuffer::WorldState world = a_world();
   world.last_id = std::numeric_limits<std::uint32_t>::max();
-  EXPECT_EQ(add(world, default_rain_cell({0.0, 0.0})), 2U) << "the configured cell has the id 1";
+  EXPECT_EQ(add(world, new_rain_cell({0.0, 0.0})), 2U) << "the configured cell has the id 1";
   EXPECT_EQ(databuffer::validate(world), std::nullopt);
 }
 
 TEST(WorldEdit, AFullListRefusesOneMore) {
   databuffer::WorldState world{};
-  for (std::size_t i = 0; i < databuffer::kMaxJammers; ++i) ASSERT_TRUE(add(world, default_jammer({0.0, 0.0})));
+  for (std::size_t i = 0; i < databuffer::kMaxJammers; ++i) ASSERT_TRUE(add(world, new_jammer({0.0, 0.0})));
   const databuffer::WorldState full = world;
-  const auto refused = add(world, default_jammer({0.0, 0.0}));
+  const auto refused = add(world, new_jammer({0.0, 0.0}));
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message().find("at most 16"), std::string::npos) << refused.error().message();
   EXPECT_TRUE(equal_but_flags(world, full));
@@ -130,7 +153,7 @@ TEST(WorldEdit, ARemovedEntryComesBackWithItsIdAndAllItsValues) {
   EXPECT_FALSE(restore(world, jammer)) << "it is there";
   ASSERT_TRUE(remove(world, WorldList::jammers, jammer.id));
   ASSERT_TRUE(remove(world, WorldList::movers, mover.id));
-  ASSERT_TRUE(add(world, default_jammer({0.0, 0.0})));
+  ASSERT_TRUE(add(world, new_jammer({0.0, 0.0})));
   ASSERT_TRUE(restore(world, jammer));
   ASSERT_TRUE(restore(world, mover));
   EXPECT_EQ(std::memcmp(&world.jammers[1], &jammer, sizeof jammer), 0);
@@ -149,13 +172,13 @@ databuffer::WorldState a_route() {
 }
 
 databuffer::WorldPoint a_point(const databuffer::WorldState& world, const char* name) {
-  databuffer::WorldPoint point = default_point(world, {38.0, -121.0}).value();
-  EXPECT_TRUE(set_name(point, name));
+  databuffer::WorldPoint point = new_point(world, {38.0, -121.0}).value();
+  EXPECT_TRUE(name_it(point, name));
   return point;
 }
 
 radar::PointKind kind_of(databuffer::WorldState& world, std::uint32_t id) {
-  return static_cast<radar::PointKind>(entry_with<databuffer::WorldPoint>(world, id, 0).value().kind);
+  return static_cast<radar::PointKind>(point_with(world, id).value().kind);
 }
 
 TEST(WorldValues, ARecordGivesTheRouteBack) {
@@ -174,7 +197,7 @@ TEST(WorldValues, ARecordGivesTheRouteBack) {
 
 TEST(WorldPoints, ANewPointIsASteerPointWithTheNextNumberAndNoElevation) {
   databuffer::WorldState world = a_route();
-  const auto point = default_point(world, {38.0, -121.0});
+  const auto point = new_point(world, {38.0, -121.0});
   ASSERT_TRUE(point);
   EXPECT_STREQ(point->name, "6");
   EXPECT_TRUE(std::isnan(point->elevation_m));
@@ -187,16 +210,16 @@ TEST(WorldPoints, ANewPointIsASteerPointWithTheNextNumberAndNoElevation) {
 TEST(WorldPoints, AfterTheNumber100TheLowestFreeOneIsGivenAndThenNone) {
   databuffer::WorldState world = a_route();
   ASSERT_TRUE(add(world, a_point(world, "100")));
-  EXPECT_STREQ(default_point(world, {0.0, 0.0}).value().name, "3");
+  EXPECT_STREQ(new_point(world, {0.0, 0.0}).value().name, "3");
   databuffer::WorldState full{};
   for (int number = 1; number <= 100; ++number)
     ASSERT_TRUE(add(full, a_point(full, std::to_string(number).c_str()))) << number;
-  EXPECT_FALSE(default_point(full, {0.0, 0.0}));
+  EXPECT_FALSE(new_point(full, {0.0, 0.0}));
 }
 
 TEST(WorldPoints, OtherEditsDoNotMarkThePointsAsChanged) {
   databuffer::WorldState world = a_route();
-  ASSERT_TRUE(add(world, default_rain_cell({37.0, -122.0})));
+  ASSERT_TRUE(add(world, new_rain_cell({37.0, -122.0})));
   ASSERT_TRUE(set_sea_state(world, 3.0));
   EXPECT_EQ(world.flags & databuffer::kWorldPointsChanged, 0U);
 }
@@ -205,8 +228,8 @@ TEST(WorldPoints, NamesAndNumbersThatOthersHaveAreRefused) {
   databuffer::WorldState world = a_route();
   const databuffer::WorldState before = world;
   for (const char* name : {"1", "1.", "5.", "2.1"}) {
-    databuffer::WorldPoint point = default_point(world, {38.0, -121.0}).value();
-    ASSERT_TRUE(set_name(point, name)) << name;
+    databuffer::WorldPoint point = new_point(world, {38.0, -121.0}).value();
+    ASSERT_TRUE(name_it(point, name)) << name;
     const auto refused = add(world, point);
     ASSERT_FALSE(refused) << name;
     EXPECT_NE(refused.error().message().find("beside"), std::string::npos) << refused.error().message();
@@ -215,7 +238,7 @@ TEST(WorldPoints, NamesAndNumbersThatOthersHaveAreRefused) {
   for (const char* name : {"2.2", "2.01", "1.1", "3", "4."}) EXPECT_TRUE(add(world, a_point(world, name))) << name;
   EXPECT_EQ(databuffer::validate(world), std::nullopt);
   databuffer::WorldPoint point = a_point(world, "9");
-  for (const char* name : {"", "0", "101", "2.001", "x", "7.."}) EXPECT_FALSE(set_name(point, name)) << name;
+  for (const char* name : {"", "0", "101", "2.001", "x", "7.."}) EXPECT_FALSE(name_it(point, name)) << name;
   EXPECT_STREQ(point.name, "9");
 }
 
@@ -226,8 +249,8 @@ TEST(WorldPoints, ATargetMakesTheLastSteerPointBeforeItAnInitialPoint) {
   EXPECT_EQ(kind_of(world, 4), radar::PointKind::initial);
   EXPECT_EQ(kind_of(world, 2), radar::PointKind::steer);
   EXPECT_EQ(kind_of(world, *target), radar::PointKind::target);
-  databuffer::WorldPoint renamed = entry_with<databuffer::WorldPoint>(world, 2, 0).value();
-  ASSERT_TRUE(set_name(renamed, "3."));
+  databuffer::WorldPoint renamed = point_with(world, 2).value();
+  ASSERT_TRUE(name_it(renamed, "3."));
   ASSERT_TRUE(replace(world, renamed));
   EXPECT_EQ(kind_of(world, 1), radar::PointKind::initial);
   EXPECT_EQ(kind_of(world, 2), radar::PointKind::target);
@@ -239,7 +262,7 @@ TEST(WorldPoints, AMovedTargetChangesNoOtherPoint) {
   ASSERT_TRUE(add(world, a_point(world, "6.")));
   world.points[3].kind = static_cast<std::uint8_t>(radar::PointKind::steer);  // as a configuration can state it
   ASSERT_TRUE(move(world, WorldList::points, 5, {39.0, -120.0}, 0));
-  EXPECT_EQ(entry_with<databuffer::WorldPoint>(world, 5, 0).value().latitude_deg, 39.0);
+  EXPECT_EQ(point_with(world, 5).value().latitude_deg, 39.0);
   EXPECT_EQ(kind_of(world, 4), radar::PointKind::steer);
 }
 
@@ -247,7 +270,7 @@ TEST(WorldPoints, AnInitialPointKeepsItsKindUnderAnotherNumber) {
   databuffer::WorldState world = a_route();
   world.points[3].kind = static_cast<std::uint8_t>(radar::PointKind::initial);
   databuffer::WorldPoint point = world.points[3];
-  ASSERT_TRUE(set_name(point, "8"));
+  ASSERT_TRUE(name_it(point, "8"));
   ASSERT_TRUE(replace(world, point));
   EXPECT_EQ(kind_of(world, 4), radar::PointKind::initial);
 }
@@ -262,7 +285,7 @@ TEST(WorldPoints, AreRemovedAndComeBackUnlessTheirNameIsGiven) {
   EXPECT_EQ(std::memcmp(&world.points[3], &point, sizeof point), 0);
   ASSERT_TRUE(add(renewed, a_point(renewed, "1")));
   EXPECT_FALSE(restore(renewed, point));
-  EXPECT_FALSE(entry_with<databuffer::WorldPoint>(world, 77, 0));
+  EXPECT_FALSE(point_with(world, 77));
 }
 
 TEST(WorldPoints, ValuesOutOfRangeAreRefused) {
@@ -299,7 +322,7 @@ TEST(WorldEdit, AFullListTakesNoRemovedEntryBack) {
   databuffer::WorldState world = a_world();
   const databuffer::WorldJammer jammer = world.jammers[0];
   ASSERT_TRUE(remove(world, WorldList::jammers, jammer.id));
-  while (world.jammer_count < databuffer::kMaxJammers) ASSERT_TRUE(add(world, default_jammer({0.0, 0.0})));
+  while (world.jammer_count < databuffer::kMaxJammers) ASSERT_TRUE(add(world, new_jammer({0.0, 0.0})));
   EXPECT_FALSE(restore(world, jammer));
   EXPECT_EQ(world.jammer_count, databuffer::kMaxJammers);
 }
@@ -337,7 +360,7 @@ TEST(WorldEdit, ValuesOutOfRangeAreRefusedWithTheLimitsAndChangeNothing) {
   const auto refused = [](const auto& outcome, const char* limits) {
     return !outcome && outcome.error().message().find(limits) != std::string::npos;
   };
-  databuffer::WorldRainCell wide = default_rain_cell({0.0, 0.0});
+  databuffer::WorldRainCell wide = new_rain_cell({0.0, 0.0});
   wide.radius_m = 200'000.0;
   EXPECT_TRUE(refused(add(world, wide), "0.1 to 100 NM"));
   databuffer::WorldMover fast = world.movers[0];
@@ -350,18 +373,18 @@ TEST(WorldEdit, ValuesOutOfRangeAreRefusedWithTheLimitsAndChangeNothing) {
   EXPECT_TRUE(refused(set_sea_state(world, 6.1), "0 to 6"));
   EXPECT_TRUE(refused(set_wind(world, 62.0, 0.0), "0 to 120 kt"));
   EXPECT_TRUE(refused(set_wind(world, 5.0, -1.0), "0 to 360 deg"));
-  EXPECT_TRUE(refused(set_name(lost, "a name of 16 chr"), "at most 15 characters"));
-  EXPECT_TRUE(refused(set_name(lost, "\x1b[2J"), "printable ASCII"));
+  EXPECT_TRUE(refused(name_it(lost, "a name of 16 chr"), "at most 15 characters"));
+  EXPECT_TRUE(refused(name_it(lost, "\x1b[2J"), "printable ASCII"));
   EXPECT_TRUE(equal_but_flags(world, before));
 }
 
 TEST(WorldEdit, TheLimitsThemselvesAreValid) {
   databuffer::WorldState world{};
-  databuffer::WorldRainCell cell = default_rain_cell({90.0, 180.0});
+  databuffer::WorldRainCell cell = new_rain_cell({90.0, 180.0});
   cell.radius_m = 100.0 * geo::kMetresPerNauticalMile;
   cell.top_m = 60'000.0 * geo::kMetresPerFoot;
   EXPECT_TRUE(add(world, cell));
-  databuffer::WorldMover mover = default_mover({-90.0, -180.0}, 0);
+  databuffer::WorldMover mover = new_mover({-90.0, -180.0}, 0);
   mover.speed_mps = values::WorldMover::speed.recorded(10'000.0);
   mover.height_m = 1000.0;
   mover.heading_deg = -360.0;
@@ -375,7 +398,7 @@ TEST(WorldEdit, TheLimitsThemselvesAreValid) {
 
 TEST(WorldEdit, ARecordWithTwoEqualIdsIsRefused) {
   databuffer::WorldState world = a_world();
-  ASSERT_TRUE(add(world, default_mover({0.0, 0.0}, 0)));
+  ASSERT_TRUE(add(world, new_mover({0.0, 0.0}, 0)));
   world.movers[1].id = world.movers[0].id;
   const auto refusal = databuffer::validate(world);
   ASSERT_TRUE(refusal);

@@ -1,5 +1,5 @@
-// `yars world`: prints the world in effect, and changes it while the set flies: sea, wind, rain, jammers, movers,
-// sequence points.
+// `yars world`: prints the world in effect, and changes it while the set flies: sea, wind, and the entries of its
+// lists.
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,12 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <variant>
+#include <vector>
 
-#include "databuffer/messages/inspection.hpp"
+#include "databuffer/messages/world_lists.hpp"
 #include "databuffer/session/session_world.hpp"
+#include "lib/radar/world.hpp"
 #include "lib/text/plain_text.hpp"
 #include "lib/values/fields.hpp"
 #include "tools/command/command.hpp"
@@ -47,6 +50,10 @@ std::string number(double value) {
   return text::text_of_number(value);
 }
 
+bool is_of_position(const values::Field& field) {
+  return field.name == values::WorldPoint::latitude.name || field.name == values::WorldPoint::longitude.name;
+}
+
 std::string position_text(double latitude_deg, double longitude_deg) {
   char text[48];
   std::snprintf(text, sizeof text, "%.5f %.5f", latitude_deg, longitude_deg);
@@ -60,40 +67,41 @@ std::string rounded(double recorded, const values::Field& field) {
   return text + std::string(field.unit);
 }
 
-std::string named(std::uint32_t id, const char* name) {
-  std::string text = std::to_string(id);
-  if (*name != '\0') text.append(" ").append(name);
-  return text;
+// What an entry has beside its position, name and values.
+template <class Entry>
+std::string others_of(const Entry& /*entry*/) {
+  return "";
+}
+std::string others_of(const databuffer::WorldJammer& jammer) {
+  return std::string(", band ") + world::band_name(jammer.band);
+}
+std::string others_of(const databuffer::WorldPoint& point) {
+  return ", " + std::string(world::kind_name(point));
+}
+
+template <class Entry>
+void print_entry(const Entry& entry) {
+  std::string text = std::string(Entry::Values::list.command) + ' ' + std::to_string(entry.id);
+  if constexpr (requires { entry.name; })
+    if (entry.name[0] != '\0') text += " \"" + std::string(text::text_of(entry.name)) + '"';
+  text += ": " + position_text(entry.latitude_deg, entry.longitude_deg);
+  values::visit_fields(entry, [&text](const values::Field& field, double value) {
+    if (is_of_position(field)) return;
+    text += ", " + std::string(field.label) + ' ';
+    text += std::isnan(value) ? std::string(field.otherwise) : rounded(value, field);
+  });
+  std::printf("%s%s\n", text.c_str(), others_of(entry).c_str());
 }
 
 void print_entries(const WorldState& world, std::int64_t sim_time_ns) {
-  using Rain = values::WorldRainCell;
-  using Jammer = values::WorldJammer;
-  using Mover = values::WorldMover;
-  for (const auto& cell : databuffer::used(world.rain, world.rain_count))
-    std::printf("rain %u: %s, radius %s, %s, top %s\n", cell.id,
-                position_text(cell.latitude_deg, cell.longitude_deg).c_str(),
-                rounded(cell.radius_m, Rain::radius).c_str(), rounded(cell.rate_mmh, Rain::rate).c_str(),
-                rounded(cell.top_m, Rain::top).c_str());
-  for (const auto& jammer : databuffer::used(world.jammers, world.jammer_count))
-    std::printf(
-        "jammer %s: %s, %s, band %s, %s\n", named(jammer.id, jammer.name).c_str(),
-        position_text(jammer.latitude_deg, jammer.longitude_deg).c_str(),
-        std::isnan(jammer.altitude_m) ? "10 m above ground" : rounded(jammer.altitude_m, Jammer::altitude).c_str(),
-        world::band_name(jammer.band), rounded(jammer.power_w, Jammer::power).c_str());
-  for (const auto& mover : databuffer::used(world.movers, world.mover_count)) {
-    const auto now = world::at_sim_time(mover, sim_time_ns);
-    std::printf("mover %s: %s, %s, heading %s, %s\n", named(now.id, now.name).c_str(),
-                position_text(now.latitude_deg, now.longitude_deg).c_str(),
-                rounded(now.speed_mps, Mover::speed).c_str(), rounded(now.heading_deg, Mover::heading).c_str(),
-                rounded(now.cross_section_m2, Mover::cross_section).c_str());
-  }
-  for (const auto& point : databuffer::used(world.points, world.point_count))
-    std::printf("point %u \"%s\": %s, %s, %s\n", point.id, point.name,
-                position_text(point.latitude_deg, point.longitude_deg).c_str(),
-                std::isnan(point.elevation_m) ? "elevation unknown"
-                                              : rounded(point.elevation_m, values::WorldPoint::elevation).c_str(),
-                std::string(world::kind_name(point)).c_str());
+  databuffer::for_each_list([&]<class Entry>(std::type_identity<Entry>) {
+    for (const Entry& entry : databuffer::ListOf<Entry>::entries_in_use(world)) {
+      if constexpr (std::is_same_v<Entry, databuffer::WorldMover>)
+        print_entry(world::at_sim_time(entry, sim_time_ns));
+      else
+        print_entry(entry);
+    }
+  });
 }
 
 bool is_in_effect(const Session& session, const WorldState& world) {
@@ -179,11 +187,203 @@ Expected<std::string> text_if_done(Expected<void> outcome, std::string done) {
   return done;
 }
 
+struct Place {
+  double latitude_deg = 0.0, longitude_deg = 0.0;
+  std::uint64_t id = 0;
+  geo::GeoPoint point() const { return {latitude_deg, longitude_deg}; }
+};
+
+void add_id(runtime::Command command, Place& place) {
+  command.option("ID", place.id, "number of the entry, as `yars world` prints it")
+      .range(std::uint64_t{1}, std::uint64_t{std::numeric_limits<std::uint32_t>::max()})
+      .required();
+}
+
+void add_position(runtime::Command command, Place& place) {
+  add_value(command, "LAT", values::WorldPoint::latitude, place.latitude_deg).required();
+  add_value(command, "LON", values::WorldPoint::longitude, place.longitude_deg).required();
+}
+
+// Options of the values that an entry has beside those of lib/values/fields.hpp.
 template <class Entry>
-Expected<std::string> added(WorldState& world, const Entry& entry, const std::string& what) {
-  const auto id = world::add(world, entry);
-  if (!id) return tl::unexpected(id.error());
-  return what + " " + std::to_string(*id) + " added";
+struct OtherOptions {
+  void add(runtime::Command /*command*/) {}
+  void write(Entry& /*entry*/) const {}
+};
+template <>
+struct OtherOptions<databuffer::WorldJammer> {
+  std::string band;
+  std::vector<double> channels;
+  void add(runtime::Command command) {
+    command.option("--band", band, "jammed band").one_of({"A", "B", "C", "D", "E", "all"}).otherwise("all");
+    command.option("--channel", channels, "jammed channel; repeatable")
+        .one_of({"1", "2", "3", "4", "5", "6", "7", "8"})
+        .repeatable()
+        .otherwise("all channels");
+  }
+  void write(databuffer::WorldJammer& jammer) const {
+    if (!band.empty()) jammer.band = band == "all" ? radar::kEveryBand : band.front() - 'A';
+    if (!channels.empty()) jammer.channels = 0;
+    for (const double channel : channels) jammer.channels |= 1U << (static_cast<unsigned>(channel) - 1U);
+  }
+};
+
+constexpr const char* kAsItIs = "as it is";
+
+// What a user gives of an entry: name and values, in the units in which people give them.
+template <class Entry>
+class EntryOptions {
+ public:
+  // `otherwise`: what holds for what is left out; empty: its default.
+  void add(runtime::Command command, const std::string& otherwise) {
+    constexpr bool kIsPoint = std::is_same_v<Entry, databuffer::WorldPoint>;
+    if constexpr (requires { Entry::name; })
+      command
+          .option("--name", name_,
+                  kIsPoint ? "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""
+                           : "name, at most " + std::to_string(sizeof(Entry::name) - 1) + " characters")
+          .otherwise(!otherwise.empty() ? otherwise
+                     : kIsPoint         ? "a steer point with the next number"
+                                        : "none");
+    auto value = values_.begin();
+    for (const values::Field& field : Entry::Values::given) {
+      runtime::Option option = add_value(command, "--" + std::string(field.option), field, *value++);
+      if (!otherwise.empty())
+        option.otherwise(otherwise);
+      else if (!std::isnan(field.initial))
+        option.otherwise(number(field.initial));
+    }
+    others_.add(command);
+  }
+
+  Expected<void> write(world::WorldEntry& entry) const {
+    if (!name_.empty())
+      if (auto named = world::set_name(entry, name_); !named) return named;
+    auto value = values_.begin();
+    values::visit_fields(std::get<Entry>(entry), [&](const values::Field& field, double& recorded) {
+      if (is_of_position(field)) return;
+      if (*value) recorded = field.recorded(**value);
+      ++value;
+    });
+    others_.write(std::get<Entry>(entry));
+    return {};
+  }
+
+ private:
+  std::string name_;
+  std::array<std::optional<double>, Entry::Values::given.size()> values_;
+  OtherOptions<Entry> others_;
+};
+
+using Shared = std::shared_ptr<WorldOptions>;
+
+runtime::Command add_action(runtime::Command parent, const char* name, const std::string& help, const Shared& options,
+                            const std::function<void()>& call) {
+  runtime::Command command = parent.subcommand(name, help);
+  add_json_flag(command, options->json);
+  command.callback(call);
+  return command;
+}
+runtime::Command add_edit(runtime::Command parent, const char* name, const std::string& help, const Shared& options,
+                          const Edit& edit) {
+  return add_action(parent, name, help, options, [options, edit] { change(*options, edit); });
+}
+
+template <class Entry>
+struct EntryArguments {
+  Place place;
+  EntryOptions<Entry> options;
+  std::uint32_t id() const { return static_cast<std::uint32_t>(place.id); }
+  std::string word() const { return std::string(Entry::Values::list.entry) + ' '; }
+  // "jammer 3 moved"
+  Expected<std::string> done(Expected<void> outcome, const char* what) const {
+    return text_if_done(std::move(outcome), word() + std::to_string(id()) + what);
+  }
+};
+
+// `add`, `change`, `move` and `remove` of a list.
+template <class Entry>
+runtime::Command add_list(runtime::Command parent, const Shared& options) {
+  constexpr WorldList kList = databuffer::ListOf<Entry>::list;
+  const std::string word(Entry::Values::list.entry);
+  runtime::Command list = parent.subcommand(std::string(Entry::Values::list.command), word + 's');
+  list.require_subcommand();
+
+  const auto added = std::make_shared<EntryArguments<Entry>>();
+  runtime::Command adding = add_edit(list, "add", "add a " + word, options,
+                                     [added](WorldState& world, std::int64_t now_ns) -> Expected<std::string> {
+                                       auto entry = world::default_entry(world, kList, added->place.point(), now_ns);
+                                       if (!entry) return tl::unexpected(entry.error());
+                                       if (auto written = added->options.write(*entry); !written)
+                                         return tl::unexpected(written.error());
+                                       const auto id = world::add(world, *entry);
+                                       if (!id) return tl::unexpected(id.error());
+                                       return added->word() + std::to_string(*id) + " added";
+                                     });
+  add_position(adding, added->place);
+  added->options.add(adding, "");
+
+  const auto changed = std::make_shared<EntryArguments<Entry>>();
+  runtime::Command changing = add_edit(list, "change", "change the name or the values of a " + word, options,
+                                       [changed](WorldState& world, std::int64_t now_ns) -> Expected<std::string> {
+                                         auto entry = world::entry_with(world, kList, changed->id(), now_ns);
+                                         if (!entry) return tl::unexpected(entry.error());
+                                         if (auto written = changed->options.write(*entry); !written)
+                                           return tl::unexpected(written.error());
+                                         return changed->done(world::replace(world, *entry), " changed");
+                                       });
+  add_id(changing, changed->place);
+  changed->options.add(changing, kAsItIs);
+
+  const auto moved = std::make_shared<EntryArguments<Entry>>();
+  runtime::Command moving = add_edit(
+      list, "move", "move a " + word + " to a position", options, [moved](WorldState& world, std::int64_t now_ns) {
+        return moved->done(world::move(world, kList, moved->id(), moved->place.point(), now_ns), " moved");
+      });
+  add_id(moving, moved->place);
+  add_position(moving, moved->place);
+
+  const auto removed = std::make_shared<EntryArguments<Entry>>();
+  add_id(add_edit(list, "remove", "remove a " + word, options,
+                  [removed](WorldState& world, std::int64_t) {
+                    return removed->done(world::remove(world, kList, removed->id()), " removed");
+                  }),
+         removed->place);
+  return list;
+}
+
+void add_steer(runtime::Command mover, const Shared& options) {
+  struct Values {
+    Place place;
+    double speed_kt = 0.0, heading_deg = 0.0;
+  };
+  const auto values = std::make_shared<Values>();
+  runtime::Command command =
+      add_edit(mover, "steer", "change speed and heading where the mover is", options,
+               [values](WorldState& world, std::int64_t now_ns) {
+                 const auto id = static_cast<std::uint32_t>(values->place.id);
+                 const double speed_mps = values::WorldMover::speed.recorded(values->speed_kt);
+                 return text_if_done(world::steer(world, id, speed_mps, values->heading_deg, now_ns),
+                                     "mover " + std::to_string(id) + " steered");
+               });
+  add_id(command, values->place);
+  add_value(command, "SPEED_KT", values::WorldMover::speed, values->speed_kt).required();
+  add_value(command, "HDG", values::WorldMover::heading, values->heading_deg).required();
+}
+
+void add_wind(runtime::Command parent, const Shared& options) {
+  struct Values {
+    double speed_kt = 0.0, from_deg = 0.0;
+  };
+  const auto values = std::make_shared<Values>();
+  runtime::Command command =
+      add_edit(parent, "wind", "set the wind over the sea", options, [values](WorldState& world, std::int64_t) {
+        const double speed_mps = values::WorldState::wind_speed.recorded(values->speed_kt);
+        return text_if_done(world::set_wind(world, speed_mps, values->from_deg),
+                            "wind " + number(values->speed_kt) + " kt from " + number(values->from_deg) + " deg");
+      });
+  add_value(command, "SPEED_KT", values::WorldState::wind_speed, values->speed_kt).required();
+  add_value(command, "FROM_DEG", values::WorldState::wind_from, values->from_deg).required();
 }
 
 void set_sea(const WorldOptions& options, const std::string& word) {
@@ -202,252 +402,10 @@ void set_sea(const WorldOptions& options, const std::string& word) {
   });
 }
 
-struct Place {
-  double latitude_deg = 0.0, longitude_deg = 0.0;
-  std::uint64_t id = 0;
-  geo::GeoPoint point() const { return {latitude_deg, longitude_deg}; }
-};
-
-void add_id(runtime::Command command, Place& place) {
-  command.option("ID", place.id, "number of the entry, as `yars world` prints it")
-      .range(std::uint64_t{1}, std::uint64_t{std::numeric_limits<std::uint32_t>::max()})
-      .required();
-}
-
-void add_position(runtime::Command command, Place& place) {
-  add_value(command, "LAT", values::WorldPoint::latitude, place.latitude_deg).required();
-  add_value(command, "LON", values::WorldPoint::longitude, place.longitude_deg).required();
-}
-
-// What a user gives for a new entry: position, name, and its other values in the units in which people give them.
-template <class Entry>
-class NewEntry {
- public:
-  geo::GeoPoint position() const { return place_.point(); }
-
-  void add_options(runtime::Command command) {
-    add_position(command, place_);
-    if constexpr (requires { Entry::name; })
-      command.option("--name", name_, "name, at most " + std::to_string(sizeof(Entry::name) - 1) + " characters")
-          .otherwise("none");
-    auto number = numbers_.begin();
-    for (const values::Field& field : Entry::Values::all) {
-      const std::string option = "--" + std::string(field.option);
-      if (is_of_position(field)) continue;
-      number->value = field.initial;
-      if (std::isnan(field.initial))
-        add_value(command, option, field, number++->optional);
-      else
-        add_value(command, option, field, number++->value);
-    }
-  }
-
-  Expected<void> write(Entry& entry) const {
-    auto number = numbers_.begin();
-    values::visit_fields(entry, [&](const values::Field& field, double& value) {
-      if (is_of_position(field)) return;
-      value = field.recorded(std::isnan(field.initial) ? number->optional.value_or(field.initial) : number->value);
-      ++number;
-    });
-    if constexpr (requires { Entry::name; }) return world::set_name(entry, name_);
-    return {};
-  }
-
- private:
-  struct Number {
-    double value = 0.0;
-    std::optional<double> optional;  // of a value without a default
-  };
-  static bool is_of_position(const values::Field& field) {
-    return field.name == values::WorldPoint::latitude.name || field.name == values::WorldPoint::longitude.name;
-  }
-
-  Place place_;
-  std::string name_;
-  std::array<Number, Entry::Values::all.size()> numbers_;
-};
-
-using Shared = std::shared_ptr<WorldOptions>;
-
-runtime::Command add_action(runtime::Command parent, const char* name, const char* help, const Shared& options,
-                            const std::function<void()>& call) {
-  runtime::Command command = parent.subcommand(name, help);
-  add_json_flag(command, options->json);
-  command.callback(call);
-  return command;
-}
-
-// `move` and `remove` of one list.
-void add_move_and_remove(runtime::Command list_command, WorldList list, const std::string& what,
-                         const Shared& options) {
-  const auto place = std::make_shared<Place>();
-  runtime::Command moving =
-      add_action(list_command, "move", "move an entry to a position", options, [options, place, list, what] {
-        change(*options, [&](WorldState& world, std::int64_t now_ns) {
-          const auto id = static_cast<std::uint32_t>(place->id);
-          return text_if_done(world::move(world, list, id, place->point(), now_ns),
-                              what + " " + std::to_string(id) + " moved");
-        });
-      });
-  add_id(moving, *place);
-  add_position(moving, *place);
-  runtime::Command removing =
-      add_action(list_command, "remove", "remove an entry", options, [options, place, list, what] {
-        change(*options, [&](WorldState& world, std::int64_t) {
-          const auto id = static_cast<std::uint32_t>(place->id);
-          return text_if_done(world::remove(world, list, id), what + " " + std::to_string(id) + " removed");
-        });
-      });
-  add_id(removing, *place);
-}
-
-void add_rain(runtime::Command parent, const Shared& options) {
-  runtime::Command rain = parent.subcommand("rain", "rain cells");
-  rain.require_subcommand();
-  const auto given = std::make_shared<NewEntry<databuffer::WorldRainCell>>();
-  given->add_options(add_action(rain, "add", "add a rain cell", options, [options, given] {
-    change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
-      auto cell = world::default_rain_cell(given->position());
-      if (auto written = given->write(cell); !written) return tl::unexpected(written.error());
-      return added(world, cell, "rain cell");
-    });
-  }));
-  add_move_and_remove(rain, WorldList::rain, "rain cell", options);
-}
-
-void add_jammer(runtime::Command parent, const Shared& options) {
-  struct Given : NewEntry<databuffer::WorldJammer> {
-    std::string band = "all";
-    std::vector<double> channels;
-  };
-  runtime::Command jammer = parent.subcommand("jammer", "noise jammers");
-  jammer.require_subcommand();
-  const auto given = std::make_shared<Given>();
-  runtime::Command command = add_action(jammer, "add", "add a jammer", options, [options, given] {
-    change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
-      auto entry = world::default_jammer(given->position());
-      if (auto written = given->write(entry); !written) return tl::unexpected(written.error());
-      entry.band = given->band == "all" ? -1 : given->band.front() - 'A';
-      if (!given->channels.empty()) entry.channels = 0;
-      for (const double channel : given->channels) entry.channels |= 1U << (static_cast<unsigned>(channel) - 1U);
-      return added(world, entry, "jammer");
-    });
-  });
-  given->add_options(command);
-  command.option("--band", given->band, "jammed band").one_of({"A", "B", "C", "D", "E", "all"});
-  command.option("--channel", given->channels, "jammed channel; repeatable")
-      .one_of({"1", "2", "3", "4", "5", "6", "7", "8"})
-      .repeatable()
-      .otherwise("all channels");
-  add_move_and_remove(jammer, WorldList::jammers, "jammer", options);
-}
-
-void add_steer(runtime::Command mover, const Shared& options) {
-  struct Values {
-    Place place;
-    double speed_kt = 0.0, heading_deg = 0.0;
-  };
-  const auto values = std::make_shared<Values>();
-  runtime::Command command =
-      add_action(mover, "steer", "change speed and heading where the mover is", options, [options, values] {
-        change(*options, [&](WorldState& world, std::int64_t now_ns) {
-          const auto id = static_cast<std::uint32_t>(values->place.id);
-          const double speed_mps = values::WorldMover::speed.recorded(values->speed_kt);
-          return text_if_done(world::steer(world, id, speed_mps, values->heading_deg, now_ns),
-                              "mover " + std::to_string(id) + " steered");
-        });
-      });
-  add_id(command, values->place);
-  add_value(command, "SPEED_KT", values::WorldMover::speed, values->speed_kt).required();
-  add_value(command, "HDG", values::WorldMover::heading, values->heading_deg).required();
-}
-
-void add_mover(runtime::Command parent, const Shared& options) {
-  runtime::Command mover = parent.subcommand("mover", "moving targets: ships and vehicles");
-  mover.require_subcommand();
-  const auto given = std::make_shared<NewEntry<databuffer::WorldMover>>();
-  given->add_options(add_action(mover, "add", "add a moving target", options, [options, given] {
-    change(*options, [&](WorldState& world, std::int64_t now_ns) -> Expected<std::string> {
-      auto entry = world::default_mover(given->position(), now_ns);
-      if (auto written = given->write(entry); !written) return tl::unexpected(written.error());
-      return added(world, entry, "mover");
-    });
-  }));
-  add_move_and_remove(mover, WorldList::movers, "mover", options);
-  add_steer(mover, options);
-}
-
-// Writes the given name and elevation into a point.
-struct PointValues {
-  Place place;
-  std::string name;
-  std::optional<double> elevation_ft;
-  Expected<void> write(databuffer::WorldPoint& point) const {
-    if (elevation_ft) point.elevation_m = values::WorldPoint::elevation.recorded(*elevation_ft);
-    if (name.empty()) return {};
-    return world::set_name(point, name);
-  }
-};
-
-void add_point_options(runtime::Command command, PointValues& values, const char* name_otherwise,
-                       const char* elevation_otherwise) {
-  command.option("--name", values.name, "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\"")
-      .otherwise(name_otherwise);
-  add_value(command, "--elevation-ft", values::WorldPoint::elevation, values.elevation_ft)
-      .otherwise(elevation_otherwise);
-}
-
-void add_point(runtime::Command parent, const Shared& options) {
-  runtime::Command point = parent.subcommand("point", "sequence points");
-  point.require_subcommand();
-  const auto values = std::make_shared<PointValues>();
-  runtime::Command adding = add_action(point, "add", "add a sequence point", options, [options, values] {
-    change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
-      auto entry = world::default_point(world, values->place.point());
-      if (!entry) return tl::unexpected(entry.error());
-      if (auto written = values->write(*entry); !written) return tl::unexpected(written.error());
-      return added(world, *entry, std::string("sequence point ") + entry->name + ", id");
-    });
-  });
-  add_position(adding, values->place);
-  add_point_options(adding, *values, "a steer point with the next number", "unknown");
-  const auto changes = std::make_shared<PointValues>();
-  runtime::Command changing =
-      add_action(point, "change", "change the name or the elevation of a point", options, [options, changes] {
-        change(*options, [&](WorldState& world, std::int64_t now_ns) -> Expected<std::string> {
-          const auto id = static_cast<std::uint32_t>(changes->place.id);
-          auto entry = world::entry_with<databuffer::WorldPoint>(world, id, now_ns);
-          if (!entry) return tl::unexpected(entry.error());
-          if (auto written = changes->write(*entry); !written) return tl::unexpected(written.error());
-          return text_if_done(world::replace(world, *entry), "point " + std::to_string(id) + " changed");
-        });
-      });
-  add_id(changing, changes->place);
-  add_point_options(changing, *changes, "as it is", "as it is");
-  add_move_and_remove(point, WorldList::points, "point", options);
-}
-
-void add_wind(runtime::Command parent, const Shared& options) {
-  struct Values {
-    double speed_kt = 0.0, from_deg = 0.0;
-  };
-  const auto values = std::make_shared<Values>();
-  runtime::Command command = add_action(parent, "wind", "set the wind over the sea", options, [options, values] {
-    change(*options, [&](WorldState& world, std::int64_t) {
-      const double speed_mps = values::WorldState::wind_speed.recorded(values->speed_kt);
-      return text_if_done(world::set_wind(world, speed_mps, values->from_deg),
-                          "wind " + number(values->speed_kt) + " kt from " + number(values->from_deg) + " deg");
-    });
-  });
-  add_value(command, "SPEED_KT", values::WorldState::wind_speed, values->speed_kt).required();
-  add_value(command, "FROM_DEG", values::WorldState::wind_from, values->from_deg).required();
-}
-
 }  // namespace
 
 void add_world_command(runtime::Command app, const CommonOptions& common) {
-  runtime::Command world =
-      app.subcommand("world", "print or change sea, wind, rain, jammers, movers and sequence points");
+  runtime::Command world = app.subcommand("world", "print or change the world: sea, wind, and what is in its lists");
   const auto options = std::make_shared<WorldOptions>(WorldOptions{common});
   add_json_flag(world, options->json);
   world.callback([world, options] {
@@ -458,10 +416,10 @@ void add_world_command(runtime::Command app, const CommonOptions& common) {
       .option("STATE", *state, std::string(values::WorldState::sea_state.purpose) + "; auto: from the wind")
       .required();
   add_wind(world, options);
-  add_rain(world, options);
-  add_jammer(world, options);
-  add_mover(world, options);
-  add_point(world, options);
+  databuffer::for_each_list([&]<class Entry>(std::type_identity<Entry>) {
+    runtime::Command list = add_list<Entry>(world, options);
+    if constexpr (std::is_same_v<Entry, databuffer::WorldMover>) add_steer(list, options);
+  });
   add_action(world, "reset", "the configuration's world", options, [options] { reset(*options); });
 }
 

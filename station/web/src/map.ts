@@ -1,6 +1,7 @@
 // The instructor's map: hill shade of the server, what flies and stands on it; moved, zoomed and dragged by pointer.
 // Projection: plate carree about the middle of the view; shapes are true there.
 import { InstructorState, Theatre } from "./messages";
+import { Lists, LISTS } from "./values";
 
 const TILE_DEG = 8;
 const TILE_PIXELS = 256;
@@ -16,10 +17,10 @@ const SYMBOL_PX = 8, RING_PX = 13, AIRCRAFT_PX = 14; // radii of what they cover
 const ABOVE_BASELINE_PX = 12, BELOW_BASELINE_PX = 3; // of a label
 
 export interface Position { lat: number; lon: number }
-export const LISTS = ["rain", "jammers", "movers", "points"] as const; // of the world
-export type Kind = "aircraft" | typeof LISTS[number];
-export const WORDS: Record<Kind, string> =
-  { aircraft: "aircraft", rain: "rain", jammers: "jammer", movers: "mover", points: "point" };
+export type Kind = "aircraft" | keyof Lists;
+export const wordOf = (kind: Kind): string => LISTS.find(({ name }) => name === kind)?.word ?? kind;
+// Lists that the map draws in a way of their own. Entries of others are squares.
+const DRAWN: readonly (keyof Lists)[] = ["rain", "jammers", "movers", "points"];
 export interface Thing extends Position { kind: Kind; id: number; name: string }
 type Box = [number, number, number, number]; // left, top, right, bottom [pixels]
 interface Label { x: number; y: number; text: string; colour: string; radius: number; first: boolean }
@@ -34,7 +35,7 @@ export interface MapUser {
 // Name of a thing of the world: its own, or a word with its id. That of a sequence point is a number.
 function nameOf(kind: Kind, entry: { id: number; name?: string }): string {
   if (kind === "points") return `point ${entry.name}`;
-  return entry.name || `${WORDS[kind]} ${entry.id}`;
+  return entry.name || `${wordOf(kind)} ${entry.id}`;
 }
 
 export const wrap = (lon: number): number => ((((lon + 180) % 360) + 360) % 360) - 180;
@@ -136,7 +137,7 @@ export class TheatreMap {
     if (!state) return [];
     const list: Thing[] = state.aircraft
       ? [{ kind: "aircraft", id: 0, name: "aircraft", lat: state.aircraft.lat, lon: state.aircraft.lon }] : [];
-    for (const kind of LISTS)
+    for (const { name: kind } of LISTS)
       for (const entry of state.world?.[kind] ?? [])
         list.push({ kind, id: entry.id, name: nameOf(kind, entry), lat: entry.latitude_deg, lon: entry.longitude_deg });
     return list;
@@ -499,6 +500,12 @@ export class TheatreMap {
       this.mark(at, "points", point.id,
         point.name === state?.sequence_point ? `${point.name} selected` : point.name, "#b9e0ff");
     }
+    for (const { name } of LISTS.filter((list) => !DRAWN.includes(list.name)))
+      for (const entry of state?.world?.[name] ?? []) {
+        const at = this.place(name, entry.id, { lat: entry.latitude_deg, lon: entry.longitude_deg });
+        this.dot(at, "#d9c2ff", "square");
+        this.mark(at, name, entry.id, nameOf(name, entry), "#d9c2ff");
+      }
   }
 
   private drawAircraft(): void {

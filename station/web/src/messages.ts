@@ -1,5 +1,5 @@
 // Messages between page and server. Source: docs/station.md, "Messages".
-import { JammerValues, Mover, Rain, SequencePoint } from "./values";
+import { Lists } from "./values";
 
 export type Right = "viewer" | "instructor"; // what the page may do: look; look, fly and change the set
 
@@ -52,10 +52,8 @@ export function frameOf(message: ArrayBuffer): FrameMessage {
 }
 
 // What the instructor's page shows of a session.
-export interface Jammer extends JammerValues { band: string; channels: number[] }
-export interface World {
+export interface World extends Lists {
   sea_state: number | null; wind_kt: number; wind_from_deg: number; configured: boolean;
-  rain: Rain[]; jammers: Jammer[]; movers: Mover[]; points: SequencePoint[];
 }
 export interface PatchEntry {
   id: number; lat: number; lon: number; window_nm: number; up_deg: number; size: number; corners: [number, number][];

@@ -6,7 +6,7 @@ export interface Field {
   name: string; label: string; unit: string; min: number; max: number; purpose: string; otherwise: string;
 }
 
-export interface Rain {
+export interface RainCell {
   id: number;
   latitude_deg: number;
   longitude_deg: number;
@@ -14,7 +14,7 @@ export interface Rain {
   rate_mmh: number;
   top_ft: number;
 }
-export interface JammerValues {
+export interface Jammer {
   id: number;
   name: string;
   latitude_deg: number;
@@ -32,7 +32,7 @@ export interface Mover {
   cross_section_m2: number;
   height_ft: number;
 }
-export interface SequencePoint {
+export interface Point {
   id: number;
   latitude_deg: number;
   longitude_deg: number;
@@ -40,9 +40,23 @@ export interface SequencePoint {
   name: string;
   kind: string;
 }
+export interface Lists {
+  rain: RainCell[];
+  jammers: Jammer[];
+  movers: Mover[];
+  points: Point[];
+}
+
+// The lists of the world: `word` is on the map and in lists, `entry` in sentences.
+export const LISTS: readonly { name: keyof Lists; word: string; entry: string }[] = [
+  { name: "rain", word: "rain", entry: "rain cell" },
+  { name: "jammers", word: "jammer", entry: "jammer" },
+  { name: "movers", word: "mover", entry: "mover" },
+  { name: "points", word: "point", entry: "point" },
+];
 
 export const FIELDS = {
-  WorldRainCell: {
+  rain: {
     latitude: { name: "latitude_deg", label: "Latitude", unit: "deg", min: -90, max: 90,
       purpose: "WGS84, north positive", otherwise: "" },
     longitude: { name: "longitude_deg", label: "Longitude", unit: "deg", min: -180, max: 180,
@@ -54,7 +68,7 @@ export const FIELDS = {
     top: { name: "top_ft", label: "Top", unit: "ft", min: 500, max: 60000,
       purpose: "top above mean sea level", otherwise: "" },
   },
-  WorldJammer: {
+  jammers: {
     latitude: { name: "latitude_deg", label: "Latitude", unit: "deg", min: -90, max: 90,
       purpose: "WGS84, north positive", otherwise: "" },
     longitude: { name: "longitude_deg", label: "Longitude", unit: "deg", min: -180, max: 180,
@@ -64,7 +78,7 @@ export const FIELDS = {
     power: { name: "power_w", label: "Power", unit: "W", min: 0, max: 1e9,
       purpose: "effective radiated power within the receiver's bandwidth", otherwise: "" },
   },
-  WorldMover: {
+  movers: {
     latitude: { name: "latitude_deg", label: "Latitude", unit: "deg", min: -90, max: 90,
       purpose: "WGS84, north positive", otherwise: "" },
     longitude: { name: "longitude_deg", label: "Longitude", unit: "deg", min: -180, max: 180,
@@ -78,7 +92,7 @@ export const FIELDS = {
     height: { name: "height_ft", label: "Height", unit: "ft", min: 0, max: 3281,
       purpose: "height of the reflecting point above the ground or water", otherwise: "" },
   },
-  WorldPoint: {
+  points: {
     latitude: { name: "latitude_deg", label: "Latitude", unit: "deg", min: -90, max: 90,
       purpose: "WGS84, north positive", otherwise: "" },
     longitude: { name: "longitude_deg", label: "Longitude", unit: "deg", min: -180, max: 180,

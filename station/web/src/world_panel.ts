@@ -1,20 +1,14 @@
 // The world on the instructor's page: sea, wind, and the things on the map, which are added, changed, removed and
 // brought back.
-import { Kind, LISTS, Position, TheatreMap, Thing, WORDS } from "./map";
+import { Kind, Position, TheatreMap, Thing, wordOf } from "./map";
 import { Answer, InstructorState } from "./messages";
 import { button, element, fill, limit, onClick, onSubmit, say } from "./page";
 import { UndoLine } from "./undo";
-import { Field, FIELDS } from "./values";
-
-const KINDS: Record<string, string> = { rain: "rain", jammers: "jammer", movers: "mover", points: "sequence point" };
+import { Field, FIELDS, Lists, LISTS } from "./values";
 
 // Values of a thing that the page edits: all but its position, and the names of sequence points.
 const edited = (values: Record<string, Field>): Field[] =>
   Object.values(values).filter(({ name }) => !name.endsWith("itude_deg"));
-const FORMS: Record<string, Field[]> = {
-  rain: edited(FIELDS.WorldRainCell), jammers: edited(FIELDS.WorldJammer), movers: edited(FIELDS.WorldMover),
-  points: edited(FIELDS.WorldPoint),
-};
 const NAME_PATTERN = "[1-9][0-9]{0,2}([.][0-9]{0,2})?"; // of a sequence point
 const NAME_HINT = "Name: 7 is a steer point, 7. a target, 7.1 an offset, 7.01 an offset of a target. " +
   "The radar draws the five nearest and the selected one";
@@ -53,7 +47,8 @@ export class WorldPanel {
   constructor(
     private readonly map: TheatreMap, private readonly order: (name: string, values?: object) => Promise<Answer>,
     private readonly moved: () => void) {
-    for (const kind of LISTS) onClick(`add_${kind}`, () => this.beginAdding(kind));
+    element("add_buttons").append(...LISTS.map(({ name, entry }) =>
+      Object.assign(button(`Add ${entry}`, () => this.beginAdding(name)), { id: `add_${name}` })));
     onClick("add_middle", () => this.add(this.map.middle()));
     onClick("add_cancel", () => this.stopAdding());
     window.addEventListener("keydown", (event) => {
@@ -85,11 +80,11 @@ export class WorldPanel {
   }
 
   // A second press adds where the middle of the map is.
-  private beginAdding(kind: Kind): void {
+  private beginAdding(kind: keyof Lists): void {
     if (this.adding === kind) return this.add(this.map.middle());
     this.adding = kind;
     this.map.placing = true;
-    say("adding", `Press on the map where the ${KINDS[kind]} is to be.`);
+    say("adding", `Press on the map where the ${wordOf(kind)} is to be.`);
     this.showAdding();
     element("theatre").scrollIntoView({ block: "nearest" });
   }
@@ -98,7 +93,7 @@ export class WorldPanel {
     const adding = this.adding !== undefined;
     for (const id of ["add_middle", "add_cancel"]) element(id).hidden = !adding;
     element("adding_line").classList.toggle("shown", adding);
-    for (const kind of LISTS) element(`add_${kind}`).setAttribute("aria-pressed", String(this.adding === kind));
+    for (const { name } of LISTS) element(`add_${name}`).setAttribute("aria-pressed", String(this.adding === name));
   }
   private stopAdding(): void {
     this.adding = undefined;
@@ -132,11 +127,11 @@ export class WorldPanel {
     this.chosen = thing;
     this.map.chosen = thing;
     const form = element<HTMLFormElement>("thing_form");
-    form.hidden = thing === undefined || !(thing.kind in FORMS);
-    if (form.hidden || !thing || thing.kind === "aircraft") return;
+    form.hidden = thing === undefined || thing.kind === "aircraft";
+    if (!thing || thing.kind === "aircraft") return;
     const entries: readonly { id: number }[] = this.state?.world?.[thing.kind] ?? [];
     const entry = entries.find(({ id }) => id === thing.id) as Record<string, unknown> | undefined;
-    const fields = FORMS[thing.kind], isPoint = thing.kind === "points";
+    const fields = edited(FIELDS[thing.kind]), isPoint = thing.kind === "points";
     const rows = fields.map((field) =>
       labelled(`${field.label} [${field.unit.replace("m2", "m²")}]`, inputOf(field, entry?.[field.name])));
     if (isPoint) rows.unshift(labelled("Name", nameInput(entry?.name)));
@@ -179,7 +174,7 @@ export class WorldPanel {
       this.map.goTo(thing);
       this.moved();
     });
-    const word = WORDS[thing.kind];
+    const word = wordOf(thing.kind);
     if (!thing.name.startsWith(word)) { // "ferry" needs its kind, "rain 2" does not
       const kind = document.createElement("span");
       kind.className = "kind";

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "config/schema/slot_text.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {
@@ -107,7 +108,29 @@ TEST(Rain, RefusesACellWithoutPositionAndTooManyCells) {
   EXPECT_THAT(refusal("( Rain :cells `( ( RainCell :radius 5 ) ) )"), HasSubstr("expected a latitude for :latitude"));
   std::string many = "( Rain :cells `( ";
   for (int i = 0; i < 65; ++i) many += "( RainCell 10 20 ) ";
-  EXPECT_THAT(refusal(many + ") )"), HasSubstr("expected at most 64 showers"));
+  EXPECT_THAT(refusal(many + ") )"), HasSubstr("expected at most 64 rain cells"));
+}
+
+TEST(ListsOfTheWorld, AnEntryOfEachIsReadWithItsDefaultsAndPrinted) {
+  const auto check = [](const auto& kind) {
+    using Entry = std::decay_t<decltype(kind)>;
+    const values::List& list = Entry::Values::list;
+    const std::string form(list.form);
+    const auto read = loaded("( " + std::string(list.group) + " `( ( " + form + " :latitude 37 :longitude -122 ) ) )");
+    const auto& entries = std::get<const std::vector<Entry>&>(radar::lists_of(read.radar.world));
+    ASSERT_EQ(entries.size(), 1U) << form;
+    EXPECT_EQ(entries[0].position, (geo::GeoPoint{37.0, -122.0}));
+    std::size_t index = 0;
+    const auto has_default = [&](double value) {
+      const values::Field& field = Entry::Values::given[index++];
+      EXPECT_TRUE(std::isnan(field.initial) ? std::isnan(value) : field.given(value) == field.initial) << field.name;
+    };
+    std::apply([&](const auto&... member) { (has_default(member(entries[0])), ...); }, Entry::Values::members);
+    EXPECT_EQ(fields(loaded(print_configuration(read.radar)).radar.world), fields(read.radar.world)) << form;
+  };
+  const radar::WorldConfiguration world;
+  std::apply([&](const auto&... list) { (check(typename std::decay_t<decltype(list)>::value_type()), ...); },
+             radar::lists_of(world));
 }
 
 TEST(Jammers, HaveBandChannelsAndPower) {

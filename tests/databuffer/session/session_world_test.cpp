@@ -10,7 +10,7 @@
 
 #include "databuffer/messages/validation.hpp"
 #include "tests/databuffer/session/open_session.hpp"
-#include "world/world_edit.hpp"
+#include "tests/world/new_entries.hpp"
 #include "world/world_values.hpp"
 
 namespace yars::databuffer {
@@ -44,7 +44,7 @@ class SessionWorldTest : public testing::OpenSessionTest {
   static error::Expected<WorldState> add_rain(Session& session) {
     return change_world(session, [](const WorldState& before) -> error::Expected<WorldState> {
       WorldState next = before;
-      if (auto id = world::add(next, world::default_rain_cell({0.0, 0.0})); !id) return tl::unexpected(id.error());
+      if (auto id = world::add(next, world::new_rain_cell({0.0, 0.0})); !id) return tl::unexpected(id.error());
       return next;
     });
   }
