@@ -15,6 +15,11 @@
 
 namespace yars::gateway {
 
+// later - earlier, in numbers without a sign: times from another host may have any value.
+constexpr std::int64_t difference_ns(std::int64_t later, std::int64_t earlier) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(earlier));
+}
+
 struct ProbeTimes {
   std::int64_t asked_ns = 0;     // this host
   std::int64_t received_ns = 0;  // the other host
@@ -31,12 +36,8 @@ class OffsetEstimator {
 
   // False: the times contradict each other and are left out.
   bool add(const ProbeTimes& times) {
-    // Unsigned arithmetic, because times from another host may have any value.
-    const auto difference = [](std::int64_t later, std::int64_t earlier) {
-      return static_cast<std::int64_t>(static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(earlier));
-    };
-    const std::int64_t away_ns = difference(times.returned_ns, times.asked_ns);
-    const std::int64_t there_ns = difference(times.answered_ns, times.received_ns);
+    const std::int64_t away_ns = difference_ns(times.returned_ns, times.asked_ns);
+    const std::int64_t there_ns = difference_ns(times.answered_ns, times.received_ns);
     if (away_ns < 0 || there_ns < 0 || there_ns > away_ns || away_ns > kMaxRoundTrip_ns) return false;
     if (times.received_ns < 0 || times.received_ns > kMaxTime_ns || times.asked_ns < 0) return false;
     const std::int64_t outward_ns = times.received_ns - times.asked_ns;

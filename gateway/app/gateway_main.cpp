@@ -1,10 +1,13 @@
 // The program gateway: joins the session of this computer to those of other computers.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdint>
-#include <ctime>
 #include <filesystem>
+#include <numeric>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +17,7 @@
 #include "databuffer/session/session.hpp"
 #include "gateway/checks/computer_check.hpp"
 #include "gateway/checks/identity_check.hpp"
+#include "gateway/dds/domain_configuration.hpp"
 #include "gateway/dds/link.hpp"
 #include "gateway/dds/participants.hpp"
 #include "gateway/exchange/clock_exchange.hpp"
@@ -29,6 +33,7 @@
 #include "gateway/pace.hpp"
 #include "lib/log/log.hpp"
 #include "runtime/process.hpp"
+#include "runtime/processor_load.hpp"
 #include "runtime/program.hpp"
 
 namespace {
@@ -43,18 +48,19 @@ constexpr std::int64_t kMaxEnd_ns = 1'000'000'000;
 constexpr std::int64_t kLockstepEnd_ns = 20'000'000;  // until the other hosts have taken what they have acknowledged
 constexpr std::int64_t kSilence_ns = 10'000'000'000;  // hosts that can hear each other do so within 0.3 s
 
-// Processor time of this process, with the threads of Cyclone DDS.
-double process_time_s() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 std::string list_of(const std::vector<std::string>& words) {
   std::string list;
   for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
   return list;
 }
+
+// What the gateway needs each time that it joins.
+struct Joining {
+  radar::NetworkSettings settings;
+  std::vector<std::string> peers = {};  // addresses of other computers, which are asked
+  Identity identity = {};
+  dds::RejoinLimit rejoins = {};
+};
 
 // Gateway of one host: in passes of 5 ms it exchanges records between the local segment and the other hosts.
 // Inputs: the local segment; samples of other hosts.
@@ -63,22 +69,20 @@ std::string list_of(const std::vector<std::string>& words) {
 // Source: docs/network.md.
 class GatewayShell {
  public:
-  // `asked`: addresses of the other computers that are asked, for messages.
-  GatewayShell(databuffer::Session& session, const std::string& session_name, dds::Link link,
-               const radar::NetworkSettings& settings, Identity identity, std::vector<std::string> asked)
+  // `joining` must outlive the object.
+  GatewayShell(databuffer::Session& session, const std::string& session_name, dds::Link link, const Joining& joining)
       : link_(std::move(link)),
         session_(&session),
-        hosts_(session, &link_, std::move(identity)),
+        joining_(&joining),
+        hosts_(session, &link_, joining.identity),
         roles_(session, session_name),
         context_{session, &link_, hosts_, roles_},
-        maps_(settings.map_rows_per_s),
-        settings_(settings),
-        asked_(std::move(asked)) {
+        maps_(joining.settings.map_rows_per_s) {
     if (!link_.writes(dds::Topic::clock))
       log::info("this host does not set the session clock: it may not write the topic clock");
     const std::uint32_t writable = writable_roles([this](dds::Topic topic) { return link_.writes(topic); });
     for (const Role role : {Role::radar_model, Role::state_machine})
-      if ((writable >> static_cast<unsigned>(role) & 1U) == 0) roles_.bar(role);
+      if ((writable & bit_of(role)) == 0) roles_.bar(role);
   }
 
   // Waits for the next pass and runs it. Probes and input events are taken as soon as they arrive.
@@ -128,17 +132,11 @@ class GatewayShell {
 
   void receive() {
     states_.receive(context_);
-    states_.keep_lane(context_);
     events_.receive(context_);
     world_.receive(context_);
-    world_.publish(context_);
     history_.receive(context_);
-    history_.publish(context_);
     maps_.receive(context_);
-    maps_.publish(context_);
-    if (!context_.lockstep) return;
-    lockstep_.receive(context_);
-    lockstep_.apply(context_, history_.is_empty());
+    if (context_.lockstep) lockstep_.receive(context_, history_.is_empty());
   }
 
   void send() {
@@ -160,20 +158,19 @@ class GatewayShell {
 
   void report_joined() const {
     if (hosts_.views().size() > 1) return log::info("joined the session clock");
-    if (asked_.empty()) return log::info("joined the session clock, alone: the form Network names no other computer");
-    log::info("joined the session clock, alone: asked " + list_of(asked_) +
-              ": none has answered yet; this computer goes on alone and joins them when they come");
+    log::info("joined the session clock, alone: " +
+              (joining_->peers.empty() ? "the form Network names no other computer"
+                                       : "asked " + list_of(joining_->peers) +
+                                             ": none has answered yet; this computer goes on alone and joins them "
+                                             "when they come"));
   }
 
   void report_messages() {
     for (const std::string& message : link_.take_messages(context_.now_ns)) log::warning("Cyclone DDS: " + message);
     for (const dds::Remark& remark : link_.participants().take_remarks(context_.now_ns)) {
-      if (!remark.is_fault) {
-        log::info(remark.text);
-        continue;
-      }
+      (remark.is_fault ? log::warning : log::info)(remark.text);
+      if (!remark.is_fault) continue;
       reported_silence_ = true;
-      log::warning(remark.text);
       session_->note(databuffer::NoteKind::loss, remark.note);
     }
     lost_handshake_ = link_.participants().take_lost_handshake(context_.now_ns);
@@ -182,50 +179,37 @@ class GatewayShell {
 
   // Says once that no host has been heard since the start, and what to look at.
   void report_silence() {
-    if (first_pass_ns_ == 0) first_pass_ns_ = context_.now_ns;
-    if (reported_silence_ || asked_.empty() || context_.now_ns - first_pass_ns_ < kSilence_ns) return;
+    if (reported_silence_ || joining_->peers.empty() || hosts_.age_ns(context_.now_ns) < kSilence_ns) return;
     reported_silence_ = true;
     if (link_.counts(dds::Topic::hosts).received > 0) return;
-    const int first_port = 7400 + 250 * settings_.domain + 10;
-    log::warning("no other host has been heard in 10 s, asked " + list_of(asked_) +
+    const int first_port = dds::first_port(joining_->settings.domain) + 10;
+    log::warning("no other host has been heard in 10 s, asked " + list_of(joining_->peers) +
                  "; the usual reasons: no gateway runs there, it has another session or domain, `security` is on one "
                  "side only, or a firewall closes UDP ports " +
-                 std::to_string(first_port) + " to " + std::to_string(first_port + 2 * settings_.participants - 1));
+                 std::to_string(first_port) + " to " +
+                 std::to_string(first_port + 2 * joining_->settings.participants - 1));
   }
 
   void report() {
     look_at_processes();
     report_messages();
-    const double cpu_s = process_time_s();
-    const double elapsed_s = 1e-9 * static_cast<double>(context_.now_ns - last_report_ns_);
-    if (last_report_ns_ != 0 && elapsed_s > 0.1) load_ = (cpu_s - last_cpu_s_) / elapsed_s;
-    last_cpu_s_ = cpu_s;
-    last_report_ns_ = context_.now_ns;
     databuffer::NetworkStatus status{};
     status.monotonic_ns = context_.now_ns;
     status.joined = clock_.joined() ? 1 : 0;
-    status.domain = static_cast<std::uint32_t>(settings_.domain);
-    status.secured = settings_.security.empty() ? 0 : 1;
+    status.domain = static_cast<std::uint32_t>(joining_->settings.domain);
+    status.secured = joining_->settings.security.empty() ? 0 : 1;
     status.takeovers = roles_.takeovers();
     status.conflicts = roles_.conflicts();
-    status.load = load_;
+    status.load = load_.loads({getpid()})[getpid()];
     hosts_.describe(status, context_.now_ns);
     status.topic_count = dds::kTopicCount;
-    for (std::size_t i = 0; i < dds::kTopicCount; ++i) {
-      const auto topic = static_cast<dds::Topic>(i);
-      const dds::TopicCounts& counts = link_.counts(topic);
-      auto& to = status.topics[i];
-      dds::settings_of(topic).name.copy(to.name, sizeof to.name - 1);
-      to.sent = counts.sent;
-      to.sent_bytes = counts.sent_bytes;
-      to.received = counts.received;
-      to.received_bytes = counts.received_bytes;
-    }
+    for (std::size_t i = 0; i < dds::kTopicCount; ++i) status.topics[i] = link_.counts(static_cast<dds::Topic>(i));
     session_->layout().network_status.publish(status);
   }
 
   dds::Link link_;
   databuffer::Session* session_;
+  const Joining* joining_;
   Hosts hosts_;
   Roles roles_;
   Context context_;
@@ -238,17 +222,12 @@ class GatewayShell {
   HistoryExchange history_{lanes_, world_numbers_};
   MapExchange maps_;
   LockstepExchange lockstep_;
-  radar::NetworkSettings settings_;
-  std::vector<std::string> asked_;
   std::string lost_handshake_;
   bool reported_joined_ = false;
   bool reported_silence_ = false;
-  std::int64_t first_pass_ns_ = 0;
   std::int64_t next_pass_ns_ = 0;
   Pace reports_{500'000'000};
-  std::int64_t last_report_ns_ = 0;
-  double last_cpu_s_ = 0.0;
-  double load_ = 0.0;
+  runtime::LoadMeter load_;
 };
 
 struct GatewayOptions {
@@ -266,16 +245,14 @@ std::uint64_t configuration_hash(radar::RadarConfiguration configuration) {
 
 // Hash of the names and sizes of the files in a folder of elevation cells; 0: no folder.
 std::uint64_t terrain_hash(const std::string& folder) {
-  std::vector<std::string> lines;
+  std::set<std::string> lines;
   std::error_code code;
   for (std::filesystem::recursive_directory_iterator entry(folder, code), end; !code && entry != end;
        entry.increment(code))
     if (entry->is_regular_file(code))
-      lines.push_back(entry->path().lexically_relative(folder).string() + ' ' + std::to_string(entry->file_size(code)) +
-                      '\n');
-  std::ranges::sort(lines);
-  std::string text;
-  for (const std::string& line : lines) text += line;
+      lines.insert(entry->path().lexically_relative(folder).string() + ' ' + std::to_string(entry->file_size(code)) +
+                   '\n');
+  const std::string text = std::accumulate(lines.begin(), lines.end(), std::string());
   return text.empty() ? 0 : host_id(text);
 }
 
@@ -299,20 +276,13 @@ error::Expected<std::vector<std::string>> check(radar::NetworkSettings& settings
   if (!computer) return tl::unexpected(computer.error());
   for (const std::string& warning : computer->warnings) log::warning(warning);
   settings.peers = std::move(computer->known_peers);
-  if (settings.security.empty()) return std::move(computer->other_peers);
-  const auto warnings = checks::check_identity(settings.security, settings.name);
-  if (!warnings) return tl::unexpected(warnings.error());
-  for (const std::string& warning : *warnings) log::warning(warning);
+  if (!settings.security.empty()) {
+    const auto warnings = checks::check_identity(settings.security, settings.name);
+    if (!warnings) return tl::unexpected(warnings.error());
+    for (const std::string& warning : *warnings) log::warning(warning);
+  }
   return std::move(computer->other_peers);
 }
-
-// What the gateway needs each time that it joins.
-struct Joining {
-  radar::NetworkSettings settings;
-  std::vector<std::string> peers;  // addresses of other computers
-  Identity identity;               // without what differs from time to time
-  dds::RejoinLimit rejoins;
-};
 
 // Joins the session, until the program is to end. Output: true: join again, because a handshake was lost.
 error::Expected<bool> join(const runtime::ProgramOptions& options, Joining& joining) {
@@ -322,12 +292,11 @@ error::Expected<bool> join(const runtime::ProgramOptions& options, Joining& join
   if (!role) return tl::unexpected(error::usage_error(role.error()));
   auto link = dds::Link::open(joining.settings, options.session);
   if (!link) return tl::unexpected(link.error());
-  Identity identity = joining.identity;
-  identity.start = random_number();
-  identity.segment = segment_number(*session);
-  log::info("host " + identity.name + " joins session " + options.session + ", DDS domain " +
+  joining.identity.start = random_number();
+  joining.identity.segment = segment_number(*session);
+  log::info("host " + joining.identity.name + " joins session " + options.session + ", DDS domain " +
             std::to_string(joining.settings.domain) + (joining.settings.security.empty() ? "" : ", encrypted"));
-  GatewayShell shell(*session, options.session, std::move(*link), joining.settings, std::move(identity), joining.peers);
+  GatewayShell shell(*session, options.session, std::move(*link), joining);
   while (!runtime::stop_requested()) {
     shell.step();
     if (shell.lost_handshake().empty() || !joining.rejoins.take(databuffer::monotonic_ns())) continue;
@@ -353,11 +322,13 @@ error::Expected<void> run(const runtime::ProgramOptions& options, const GatewayO
     log::info(loaded->source.empty() ? "no form Network: this computer alone, over the loopback interface"
                                      : "form Network of " + loaded->source);
   if (!gateway_options.terrain.empty()) configuration.terrain.directory = gateway_options.terrain;
-  Joining joining{std::move(settings), std::move(*peers), {}, {}};
-  joining.identity.name = joining.settings.name;
-  joining.identity.priority = static_cast<std::uint32_t>(joining.settings.priority);
-  joining.identity.configuration_hash = configuration_hash(configuration);
-  joining.identity.terrain_hash = terrain_hash(configuration.terrain.directory);
+  const Identity identity{settings.name,
+                          static_cast<std::uint32_t>(settings.priority),
+                          0,
+                          0,
+                          configuration_hash(configuration),
+                          terrain_hash(configuration.terrain.directory)};
+  Joining joining{std::move(settings), std::move(*peers), identity};
   for (;;) {
     const auto again = join(options, joining);
     if (!again) return tl::unexpected(again.error());

@@ -19,18 +19,9 @@ inline constexpr const char* kInternal =
     "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"1s\">20ms</HeartbeatInterval>"
     "<NackDelay>10ms</NackDelay><AckDelay>5ms</AckDelay></Internal>";
 
-// A text with the characters that have a meaning in XML replaced.
-inline std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char letter : text) {
-    if (letter == '&')
-      result += "&amp;";
-    else if (letter == '<')
-      result += "&lt;";
-    else
-      result += letter;
-  }
-  return result;
+// First UDP port of a DDS domain; those of its participants begin 10 ports later (DDSI-RTPS 2.2, section 9.6.1).
+constexpr int first_port(int domain) {
+  return 7400 + 250 * domain;
 }
 
 inline std::string plugin(const std::string& element, const std::string& name, const std::string& function) {
@@ -39,8 +30,11 @@ inline std::string plugin(const std::string& element, const std::string& name, c
 }
 
 inline std::string security(const std::filesystem::path& folder) {
-  const auto file = [&folder](const std::string& element, const char* name) {
-    return "<" + element + ">file:" + escaped((folder / name).string()) + "</" + element + ">";
+  std::string place;  // the folder, with the characters that have a meaning in XML replaced
+  for (const char letter : folder.string())
+    place += letter == '&' ? "&amp;" : letter == '<' ? "&lt;" : std::string(1, letter);
+  const auto file = [&place](const std::string& element, const std::string& name) {
+    return "<" + element + ">file:" + place + "/" + name + "</" + element + ">";
   };
   return "<Security>" + plugin("Authentication", "auth", "authentication") + file("IdentityCA", "identity_ca.pem") +
          file("IdentityCertificate", "certificate.pem") + file("PrivateKey", "key.pem") + "</Authentication>" +

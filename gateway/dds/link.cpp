@@ -16,6 +16,7 @@
 #include "gateway/dds/participants.hpp"
 #include "gateway/dds/senders.hpp"
 #include "gateway/message_limit.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::gateway::dds {
 
@@ -56,30 +57,31 @@ class Messages {
   std::int64_t now_ns_ = 0;
 };
 
-struct QosDeleter {
-  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
-};
-using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
+using Qos = std::unique_ptr<dds_qos_t, decltype([](dds_qos_t* qos) { dds_delete_qos(qos); })>;
 
-// Quality of service of a topic, the same for its writers and its readers.
-Qos qos_of(const TopicSettings& settings) {
+// Quality of service of a topic, the same for its writers and its readers. KEEP_LAST everywhere: with KEEP_ALL a lost
+// host would block the writer. No liveliness leases: Cyclone DDS 0.10.2 ends with a segmentation fault when many of
+// them expire (docs/decisions/0033).
+Qos qos_of(Topic topic) {
   constexpr dds_duration_t kMaxBlocking_ns = DDS_MSECS(100);
+  const int depth = settings_of(topic).depth;
   Qos qos(dds_create_qos());
-  dds_qset_reliability(qos.get(), settings.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  const bool is_repeated = topic == Topic::probes;  // by the sender
+  dds_qset_reliability(qos.get(), is_repeated ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
                        kMaxBlocking_ns);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, settings.depth);
-  if (settings.transient_local) {
-    dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, settings.depth, -1, -1, -1);
+  if (topic == Topic::ownship) {
+    dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);  // of the writer with the greatest strength
+  } else if (!is_repeated) {
+    dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);  // a host that joins later gets the last samples
+    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, -1, -1, -1);
   }
-  if (settings.exclusive) dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
   return qos;
 }
 
 // Binds the UDP sockets of the domain to the only interface. Cyclone DDS sends there alone, but receives on all
 // interfaces (its sockets have the address 0.0.0.0).
 void bind_sockets(const radar::NetworkSettings& settings) {
-  constexpr int kFirstPort = 7400, kPortsOfDomain = 250;
   if (settings.interfaces.size() != 1) return;
   const std::string& name = settings.interfaces.front();
   rlimit limit{};
@@ -91,8 +93,8 @@ void bind_sockets(const radar::NetworkSettings& settings) {
     if (getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &length) != 0) continue;
     if (address.sin_family != AF_INET && address.sin_family != AF_INET6) continue;
     const int port = ntohs(address.sin_port);  // at the same position in sockaddr_in6
-    const int first = kFirstPort + kPortsOfDomain * settings.domain;
-    if (port >= first && port < first + kPortsOfDomain)
+    const int first = first_port(settings.domain);
+    if (port >= first && port < first_port(settings.domain + 1))
       setsockopt(descriptor, SOL_SOCKET, SO_BINDTODEVICE, name.c_str(), static_cast<socklen_t>(name.size() + 1));
   }
 }
@@ -121,12 +123,16 @@ tl::unexpected<error::Error> fail_link(const radar::NetworkSettings& settings, c
 
 // A topic, with the entities that Cyclone DDS has for it.
 struct TopicState {
-  explicit TopicState(Topic topic) : quota(settings_of(topic).instances, settings_of(topic).all_instances) {}
+  explicit TopicState(Topic topic)
+      : quota(settings_of(topic).instances,
+              topic == Topic::patch_rows ? 65536 : settings_of(topic).instances * databuffer::kMaxHosts) {
+    text::put_text(counts.name, settings_of(topic).name);
+  }
   dds_entity_t topic = 0, reader = 0, writer = 0;
-  TopicCounts counts;
+  databuffer::TopicStatus counts{};
+  std::uint64_t posed = 0;        // samples that named another host than their writer's
   InstanceQuota quota;            // of the reader
   std::uint64_t next_report = 1;  // number of refused samples that is worth a message
-  int taken = 0;                  // since begin_take()
 };
 
 // Filter of a topic. It is asked for each sample that arrives, on threads of Cyclone DDS.
@@ -158,29 +164,24 @@ struct Link::State {
     for (std::size_t i = 0; i < kTopicCount; ++i) {
       const auto topic = static_cast<Topic>(i);
       TopicState& state = topics[i];
-      const TopicSettings& topic_settings = settings_of(topic);
-      const std::string name = "yars/" + std::string(topic_settings.name);
-      const Qos topic_qos = qos_of(topic_settings);
-      state.topic = dds_create_topic(participant, topic_settings.structure, name.c_str(), nullptr, nullptr);
+      const std::string name = "yars/" + std::string(settings_of(topic).name);
+      state.topic = dds_create_topic(participant, settings_of(topic).structure, name.c_str(), nullptr, nullptr);
       if (state.topic < 0) return fail_link(settings, "topic " + name, state.topic);
       const dds_topic_filter filter{DDS_TOPIC_FILTER_SAMPLEINFO_ARG, {.sampleinfo_arg = &admits}, &state};
       dds_set_topic_filter_extended(state.topic, &filter);
-      if (is_listed(settings.topics_out, topic) && topic != Topic::ownship) {
-        state.writer = dds_create_writer(publisher, state.topic, topic_qos.get(), nullptr);
-        if (state.writer < 0 && state.writer != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-          return fail_link(settings, "a writer of topic " + name, state.writer);
-      }
-      if (!is_listed(settings.topics_in, topic)) continue;
-      state.reader = open_reader(topic);
-      if (state.reader < 0 && state.reader != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-        return fail_link(settings, "a reader of topic " + name, state.reader);
+      if (is_listed(settings.topics_out, topic) && topic != Topic::ownship)
+        state.writer = dds_create_writer(publisher, state.topic, qos_of(topic).get(), nullptr);
+      if (is_listed(settings.topics_in, topic)) state.reader = open_reader(topic);
+      for (const dds_entity_t entity : {state.writer, state.reader})
+        if (entity < 0 && entity != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+          return fail_link(settings, "a writer and a reader of topic " + name, entity);
     }
     return {};
   }
 
   // Negative: an error of Cyclone DDS.
   dds_entity_t open_reader(Topic topic) {
-    const Qos qos = qos_of(settings_of(topic));
+    const Qos qos = qos_of(topic);
     dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
     // Who poses as a host writes to its instance. With one sample for both, a loaded gateway would lose that host.
     constexpr int kAnnouncements = 64;
@@ -219,6 +220,23 @@ struct Link::State {
     return true;
   }
 
+  // True if the sample's writer is the host that the sample names, or may be.
+  bool is_from(Topic topic, dds_instance_handle_t writer, std::uint64_t host) {
+    if (settings.security.empty() || (host != 0 && senders.host_of(at(topic).reader, writer) == host)) return true;
+    if (at(topic).posed++ == 0)
+      Messages::instance().add(
+          "topic " + std::string(settings_of(topic).name) +
+          ": expected samples of the host that the writer's certificate names, found one of another; "
+          "such samples are left out");
+    return false;
+  }
+
+  void update_senders() {
+    constexpr std::uint32_t kInterval = 10;  // passes
+    if (settings.security.empty() || passes++ % kInterval != 0) return;
+    for (std::size_t i = 0; i < kTopicCount; ++i) senders.update(topics[i].reader, static_cast<Topic>(i));
+  }
+
   TopicState& at(Topic topic) { return topics[index_of(topic)]; }
 
   radar::NetworkSettings settings;
@@ -228,9 +246,8 @@ struct Link::State {
   std::deque<TopicState> topics;  // Cyclone DDS keeps pointers to them
   Participants others;
   alignas(16) std::array<std::byte, kMaxSample_bytes> taken{};
-  yars_net_SweepSample sweep{};          // Cyclone DDS allocates its video
-  dds_instance_handle_t taken_from = 0;  // writer of the sample taken last
-  Senders senders;                       // in use with security
+  yars_net_SweepSample sweep{};  // Cyclone DDS allocates its video
+  Senders senders;               // in use with security
   std::uint32_t passes = 0;
 };
 
@@ -268,24 +285,6 @@ bool Link::host_writes(std::uint64_t host, Topic topic) const {
   return state_->settings.security.empty() || !reads(topic) || state_->senders.writes(host, topic);
 }
 
-bool Link::is_from(Topic topic, std::uint64_t host) {
-  if (state_->settings.security.empty()) return true;
-  const std::uint64_t writer = state_->senders.host_of(state_->at(topic).reader, state_->taken_from);
-  if (writer == host && host != 0) return true;
-  if (state_->at(topic).counts.posed++ == 0)
-    Messages::instance().add(
-        "topic " + std::string(settings_of(topic).name) +
-        ": expected samples of the host that the writer's certificate names, found one of another; "
-        "such samples are left out");
-  return false;
-}
-
-void Link::update_senders() {
-  constexpr std::uint32_t kInterval = 10;  // passes
-  if (state_->settings.security.empty() || state_->passes++ % kInterval != 0) return;
-  for (std::size_t i = 0; i < kTopicCount; ++i) state_->senders.update(state_->topics[i].reader, static_cast<Topic>(i));
-}
-
 bool Link::write_bytes(Topic topic, const void* sample, std::size_t bytes) {
   return state_->write(state_->at(topic).writer, topic, sample, bytes);
 }
@@ -303,7 +302,7 @@ bool Link::write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sampl
   if (writer > 0 && state_->ownship_strengths[lane] != sample.priority) end_ownship(lane);
   if (writer <= 0) {
     constexpr std::uint32_t kMaxStrength = 0x7FFFFFFF;
-    const Qos qos = qos_of(settings_of(Topic::ownship));
+    const Qos qos = qos_of(Topic::ownship);
     dds_qset_ownership_strength(qos.get(), static_cast<int>(std::min(sample.priority, kMaxStrength)));
     writer = dds_create_writer(state_->publisher, state_->at(Topic::ownship).topic, qos.get(), nullptr);
     state_->ownship_strengths[lane] = sample.priority;
@@ -317,34 +316,23 @@ void Link::end_ownship(std::uint32_t lane) {
   state_->ownship_writers[lane] = 0;
 }
 
-void Link::begin_take(Topic topic) {
+void Link::take_each(Topic topic, Facts (*facts_of)(const void*), const std::function<void(const void*, bool)>& take) {
+  if (topic == Topic::hosts) state_->update_senders();
   TopicState& state = state_->at(topic);
-  state.taken = 0;
-  if (state.quota.strays() > kMaxStrays && reads(topic)) state_->renew_reader(topic);
-}
-
-const void* Link::take_next(Topic topic, bool* alive) {
-  TopicState& state = state_->at(topic);
-  if (state.reader <= 0 || state.taken >= kMaxTaken) return nullptr;
+  if (state.reader <= 0) return;
+  if (state.quota.strays() > kMaxStrays) state_->renew_reader(topic);
   void* sample = topic == Topic::sweeps ? static_cast<void*>(&state_->sweep) : state_->taken.data();
   dds_sample_info_t info{};
-  while (state.taken < kMaxTaken && dds_take(state.reader, &sample, &info, 1, 1) > 0) {
-    ++state.taken;
-    state_->taken_from = info.publication_handle;
-    if (info.instance_state != DDS_IST_ALIVE) state.quota.end(info.instance_handle);
-    if (alive != nullptr) {
-      *alive = info.valid_data;
-      // A sample that the reader held before its writer's lease ended comes with the end.
-      if (info.instance_state != DDS_IST_ALIVE && !info.valid_data) return sample;
-    }
-    if (info.valid_data) return sample;
+  for (int taken = 0; taken < kMaxTaken && dds_take(state.reader, &sample, &info, 1, 1) > 0; ++taken) {
+    const bool has_ended = info.instance_state != DDS_IST_ALIVE;
+    if (has_ended) state.quota.end(info.instance_handle);
+    // A sample that the reader held before its writer's lease ended comes with the end.
+    if (!info.valid_data && !(has_ended && topic == Topic::hosts)) continue;
+    const auto [bytes, sender] = facts_of(sample);
+    state.counts.received += info.valid_data ? 1 : 0;
+    state.counts.received_bytes += info.valid_data ? bytes : 0;
+    if (state_->is_from(topic, info.publication_handle, sender)) take(sample, info.valid_data);
   }
-  return nullptr;
-}
-
-void Link::count_received(Topic topic, std::size_t bytes) {
-  ++state_->at(topic).counts.received;
-  state_->at(topic).counts.received_bytes += bytes;
 }
 
 bool Link::is_acknowledged() const {
@@ -359,7 +347,7 @@ void Link::wait(std::int64_t time_ns) {
   if (time_ns > 0) dds_waitset_wait(state_->waitset, nullptr, 0, time_ns);
 }
 
-const TopicCounts& Link::counts(Topic topic) const {
+const databuffer::TopicStatus& Link::counts(Topic topic) const {
   return state_->at(topic).counts;
 }
 

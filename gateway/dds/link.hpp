@@ -9,11 +9,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "databuffer/messages/network_status.hpp"
 #include "gateway/dds/topics.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/network.hpp"
@@ -21,11 +23,6 @@
 namespace yars::gateway::dds {
 
 class Participants;
-
-// posed: samples that named another host than their writer's.
-struct TopicCounts {
-  std::uint64_t sent = 0, sent_bytes = 0, received = 0, received_bytes = 0, posed = 0;
-};
 
 inline constexpr std::size_t kMaxSample_bytes = 40960;  // of the structure of a topic
 
@@ -63,14 +60,13 @@ class Link {
   template <class Sample, class Take>
   void take(const Take& take) {
     static_assert(!std::is_same_v<Sample, yars_net_HostSample>, "hosts also end; see take_hosts()");
-    take_all<Sample>([&](const Sample& sample, bool) { take(sample); }, false);
+    take_all<Sample>([&](const Sample& sample, bool) { take(sample); });
   }
   // As take(), with take(sample, alive). `alive` false: the host has left, or DDS has not heard it for 1 s; of the
   // sample only `host` is valid.
   template <class Take>
   void take_hosts(const Take& take) {
-    update_senders();
-    take_all<yars_net_HostSample>(take, true);
+    take_all<yars_net_HostSample>(take);
   }
 
   // Returns when a sample of a topic that is answered at once has arrived (probes, input events), or after `time_ns`.
@@ -78,7 +74,7 @@ class Link {
   // True if the readers of all other hosts have what was written here.
   bool is_acknowledged() const;
 
-  const TopicCounts& counts(Topic topic) const;
+  const databuffer::TopicStatus& counts(Topic topic) const;
   // Messages of Cyclone DDS since the last call: at most some lines a second, and a count of those left out. Call it
   // about twice a second. `now_ns`: CLOCK_MONOTONIC.
   std::vector<std::string> take_messages(std::int64_t now_ns);
@@ -86,6 +82,11 @@ class Link {
 
  private:
   struct State;
+  // Of a sample: its size, and the host that it names as its writer.
+  struct Facts {
+    std::size_t bytes;
+    std::uint64_t sender;
+  };
   explicit Link(std::unique_ptr<State> state);
   template <class Sample>
   static std::size_t bytes_of(const Sample& sample) {
@@ -94,36 +95,23 @@ class Link {
     else
       return sizeof sample;
   }
-  // Host that a sample names as its writer.
   template <class Sample>
-  static std::uint64_t sender_of(const Sample& sample) {
+  static Facts facts_of(const void* bytes) {
+    const Sample& sample = *static_cast<const Sample*>(bytes);
     if constexpr (std::is_same_v<Sample, yars_net_ProbeSample>)
-      return sample.stage == 0 ? sample.from : sample.to;
+      return {sizeof sample, sample.stage == 0 ? sample.from : sample.to};
     else
-      return sample.host;
+      return {bytes_of(sample), sample.host};
   }
-  // True if the sample that take_next() returned last was written by `host`, or may have been.
-  bool is_from(Topic topic, std::uint64_t host);
-  void update_senders();
   template <class Sample, class Take>
-  void take_all(const Take& take, bool with_ends) {
+  void take_all(const Take& take) {
     static_assert(sizeof(Sample) <= kMaxSample_bytes);
-    constexpr Topic kTopic = kTopicOf<Sample>;
-    begin_take(kTopic);
-    bool alive = true;
-    while (const void* sample = take_next(kTopic, with_ends ? &alive : nullptr)) {
-      const Sample& taken = *static_cast<const Sample*>(sample);
-      if (alive) count_received(kTopic, bytes_of(taken));
-      if (is_from(kTopic, sender_of(taken))) take(taken, alive);
-    }
+    take_each(kTopicOf<Sample>, &facts_of<Sample>,
+              [&](const void* sample, bool alive) { take(*static_cast<const Sample*>(sample), alive); });
   }
+  void take_each(Topic topic, Facts (*facts_of)(const void*), const std::function<void(const void*, bool)>& take);
   bool write_bytes(Topic topic, const void* sample, std::size_t bytes);
   void dispose_bytes(Topic topic, const void* sample);
-  void begin_take(Topic topic);
-  // The next sample, valid until the next call; nullptr: none, or enough for now. Without `alive`, ends of instances
-  // are left out.
-  const void* take_next(Topic topic, bool* alive);
-  void count_received(Topic topic, std::size_t bytes);
 
   std::unique_ptr<State> state_;
 };

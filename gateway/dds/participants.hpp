@@ -7,8 +7,8 @@
 
 #include <dds/dds.h>
 
+#include <array>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <string>
 #include <string_view>
@@ -24,7 +24,7 @@ namespace yars::gateway::dds {
 // One line about a participant.
 struct Remark {
   std::string text;
-  std::string note;       // shorter, for the flight recorder
+  std::string note = {};  // shorter, for the flight recorder
   bool is_fault = false;  // false: it may be meant so
 };
 
@@ -59,7 +59,7 @@ class Participants {
     session_ = std::move(session);
     secured_ = secured;
     dds_guid_t guid{};
-    if (dds_get_guid(participant, &guid) == DDS_RETCODE_OK) self_ = key_of(guid);
+    if (dds_get_guid(participant, &guid) == DDS_RETCODE_OK) self_ = std::to_array(guid.v);
     participants_ = dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr);
     writers_ = dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
   }
@@ -73,7 +73,12 @@ class Participants {
       if (other.is_named || other.is_here || other.name.empty()) continue;
       if (other.session.empty() && now_ns - other.first_ns < kSilence_ns) continue;
       other.is_named = true;
-      remarks.push_back(remark_on(other));
+      if (other.session.empty())
+        remarks.push_back(silence_of(other.name, other.address, secured_));
+      else
+        remarks.push_back({gateway_text(other.name, other.address) + " is of session " + other.session +
+                           ", this one of session " + session_ +
+                           ": nothing is exchanged; start both with the same --session, if they belong together"});
     }
     return remarks;
   }
@@ -102,7 +107,7 @@ class Participants {
   static constexpr std::int64_t kHandshake_ns = 8'000'000'000;
   static constexpr std::size_t kMaxText = 64;  // [bytes] of a text about itself that a participant sends
 
-  using Key = std::pair<std::uint64_t, std::uint64_t>;  // GUID of a participant
+  using Key = std::array<std::uint8_t, 16>;  // GUID of a participant
   struct Other {
     std::string name, address;  // of a gateway; empty: it is none
     std::int64_t first_ns = 0;  // when it was first heard
@@ -115,23 +120,14 @@ class Participants {
   // Calls take(sample, info) for what has arrived on a reader of a topic of Cyclone DDS itself.
   template <class Sample, class Take>
   static void take_all(dds_entity_t reader, const Take& take) {
-    if (reader <= 0) return;
-    constexpr int kAtOnce = 16, kMaxRounds = 16;
-    for (int round = 0; round < kMaxRounds; ++round) {
-      void* samples[kAtOnce] = {};
-      dds_sample_info_t infos[kAtOnce];
-      const dds_return_t count = dds_take(reader, samples, infos, kAtOnce, kAtOnce);
-      for (int i = 0; i < count; ++i) take(*static_cast<const Sample*>(samples[i]), infos[i]);
-      if (count > 0) dds_return_loan(reader, samples, count);
-      if (count < kAtOnce) return;
+    constexpr int kMaxTaken = 256;
+    for (int taken = 0; reader > 0 && taken < kMaxTaken; ++taken) {
+      void* sample = nullptr;
+      dds_sample_info_t info;
+      if (dds_take(reader, &sample, &info, 1, 1) <= 0) return;
+      take(*static_cast<const Sample*>(sample), info);
+      dds_return_loan(reader, &sample, 1);
     }
-  }
-
-  static Key key_of(const dds_guid_t& guid) {
-    Key key;
-    std::memcpy(&key.first, guid.v, sizeof key.first);
-    std::memcpy(&key.second, guid.v + sizeof key.first, sizeof key.second);
-    return key;
   }
 
   static std::string property(const dds_qos_t* qos, const char* name) {
@@ -149,56 +145,43 @@ class Participants {
     return address.substr(0, address.find_first_of(":,"));
   }
 
-  static std::vector<std::string> partitions_of(const dds_qos_t* qos) {
-    std::uint32_t count = 0;
-    char** names = nullptr;
-    std::vector<std::string> partitions;
-    if (qos == nullptr || !dds_qget_partition(qos, &count, &names)) return partitions;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      partitions.emplace_back(text::printable(std::string_view(names[i]).substr(0, kMaxText)));
-      dds_free(names[i]);
-    }
-    dds_free(names);
-    return partitions;
+  // What is known of another participant; nullptr: it is this one, or forged.
+  Other* other_of(const Key& key) {
+    if (key == self_ || (others_.size() >= kMaxOthers && !others_.contains(key))) return nullptr;
+    return &others_[key];
   }
 
   void take_participants(std::int64_t now_ns) {
     take_all<dds_builtintopic_participant_t>(participants_, [&](const auto& sample, const dds_sample_info_t& info) {
-      const Key key = key_of(sample.key);
-      if (info.instance_state != DDS_IST_ALIVE) {
-        others_.erase(key);
-        return;
-      }
-      if (key == self_ || !info.valid_data || (others_.size() >= kMaxOthers && !others_.contains(key))) return;
-      Other& other = others_[key];
+      const Key key = std::to_array(sample.key.v);
+      if (info.instance_state != DDS_IST_ALIVE) others_.erase(key);
+      Other* other = info.instance_state == DDS_IST_ALIVE && info.valid_data ? other_of(key) : nullptr;
+      if (other == nullptr) return;
       if (property(sample.qos, "__ProcessName") == "gateway") {
-        other.name = property(sample.qos, "__Hostname");
-        other.address = address_of(sample.qos);
+        other->name = property(sample.qos, "__Hostname");
+        other->address = address_of(sample.qos);
       }
-      if (other.first_ns == 0) other.first_ns = now_ns;
+      if (other->first_ns == 0) other->first_ns = now_ns;
     });
   }
 
+  // A writer may be heard of before its participant.
   void take_writers() {
     take_all<dds_builtintopic_endpoint_t>(writers_, [&](const auto& sample, const dds_sample_info_t& info) {
-      const Key key = key_of(sample.participant_key);
-      if (key == self_ || !info.valid_data || (others_.size() >= kMaxOthers && !others_.contains(key))) return;
-      Other& other = others_[key];  // a writer may be heard of before its participant
-      for (const std::string& partition : partitions_of(sample.qos)) {
-        if (partition == session_)
-          other.is_here = true;
+      Other* other = info.valid_data ? other_of(std::to_array(sample.participant_key.v)) : nullptr;
+      std::uint32_t count = 0;
+      char** partitions = nullptr;
+      if (other == nullptr || sample.qos == nullptr || !dds_qget_partition(sample.qos, &count, &partitions)) return;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const std::string session = text::printable(std::string_view(partitions[i]).substr(0, kMaxText));
+        if (session == session_)
+          other->is_here = true;
         else
-          other.session = partition;
+          other->session = session;
+        dds_free(partitions[i]);
       }
+      dds_free(partitions);
     });
-  }
-
-  Remark remark_on(const Other& other) const {
-    if (!other.session.empty())
-      return {gateway_text(other.name, other.address) + " is of session " + other.session + ", this one of session " +
-                  session_ + ": nothing is exchanged; start both with the same --session, if they belong together",
-              "", false};
-    return silence_of(other.name, other.address, secured_);
   }
 
   std::int32_t participants_ = 0, writers_ = 0;  // readers

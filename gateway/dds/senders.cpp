@@ -5,9 +5,10 @@
 #include <openssl/x509.h>
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "gateway/host_id.hpp"
 
@@ -18,12 +19,10 @@ namespace {
 constexpr std::size_t kMaxWriters = 256;      // of a topic
 constexpr std::size_t kMaxRemembered = 4096;  // writers, with those that have ended
 
-struct NameDeleter {
-  void operator()(X509_NAME* name) const { X509_NAME_free(name); }
-};
-struct EndpointDeleter {
-  void operator()(dds_builtintopic_endpoint_t* endpoint) const { dds_builtintopic_free_endpoint(endpoint); }
-};
+using Name = std::unique_ptr<X509_NAME, decltype([](X509_NAME* name) { X509_NAME_free(name); })>;
+using Endpoint =
+    std::unique_ptr<dds_builtintopic_endpoint_t,
+                    decltype([](dds_builtintopic_endpoint_t* endpoint) { dds_builtintopic_free_endpoint(endpoint); })>;
 
 std::string name_of(const dds_builtintopic_endpoint_t& endpoint) {
   void* value = nullptr;
@@ -34,25 +33,21 @@ std::string name_of(const dds_builtintopic_endpoint_t& endpoint) {
   return name;
 }
 
-bool has_prefix(const dds_guid_t& participant, const GuidPrefix& prefix) {
-  return std::memcmp(participant.v, prefix.data(), prefix.size()) == 0;
-}
-
 // 0: the name is not that of the certificate; nullopt: DDS does not know the writer, which may have ended.
 std::optional<std::uint64_t> read_host(dds_entity_t reader, dds_instance_handle_t writer) {
-  const std::unique_ptr<dds_builtintopic_endpoint_t, EndpointDeleter> endpoint(
-      dds_get_matched_publication_data(reader, writer));
+  const Endpoint endpoint(dds_get_matched_publication_data(reader, writer));
   if (!endpoint) return std::nullopt;
   const std::string name = name_of(*endpoint);
-  const bool is_certified = has_prefix(endpoint->participant_key, guid_prefix_of(name, NameEncoding::utf8)) ||
-                            has_prefix(endpoint->participant_key, guid_prefix_of(name, NameEncoding::printable));
-  return is_certified ? host_id(name) : 0;
+  for (const NameEncoding encoding : {NameEncoding::utf8, NameEncoding::printable})
+    if (std::ranges::equal(guid_prefix_of(name, encoding), std::span(endpoint->participant_key.v).first<6>()))
+      return host_id(name);
+  return 0;
 }
 
 }  // namespace
 
 GuidPrefix guid_prefix_of(std::string_view name, NameEncoding encoding) {
-  const std::unique_ptr<X509_NAME, NameDeleter> subject(X509_NAME_new());
+  const Name subject(X509_NAME_new());
   X509_NAME_add_entry_by_txt(subject.get(), "CN",
                              encoding == NameEncoding::utf8 ? V_ASN1_UTF8STRING : V_ASN1_PRINTABLESTRING,
                              reinterpret_cast<const unsigned char*>(name.data()), static_cast<int>(name.size()), -1, 0);
@@ -84,11 +79,12 @@ void Senders::update(dds_entity_t reader, Topic topic) {
   if (reader <= 0 || dds_get_subscription_matched_status(reader, &status) != DDS_RETCODE_OK) return;
   if (status.total_count_change == 0 && status.current_count_change == 0) return;
   std::array<dds_instance_handle_t, kMaxWriters> matched{};
-  const dds_return_t count = dds_get_matched_publications(reader, matched.data(), matched.size());
+  const auto count = static_cast<std::size_t>(
+      std::max<dds_return_t>(dds_get_matched_publications(reader, matched.data(), matched.size()), 0));
   auto& hosts = writers_[index_of(topic)];
   hosts.clear();
-  for (std::size_t i = 0; i < std::min<std::size_t>(count > 0 ? static_cast<std::size_t>(count) : 0, kMaxWriters); ++i)
-    if (const std::uint64_t host = host_of(reader, matched[i]); host != 0) hosts.push_back(host);
+  for (const dds_instance_handle_t writer : std::span(matched).first(std::min(count, kMaxWriters)))
+    if (const std::uint64_t host = host_of(reader, writer); host != 0) hosts.push_back(host);
 }
 
 bool Senders::writes(std::uint64_t host, Topic topic) const {

@@ -8,31 +8,14 @@
 // Source: docs/network.md#time.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 #include <limits>
-#include <optional>
-#include <utility>
 
 #include "databuffer/messages/world_state.hpp"
 #include "databuffer/session/clock_changes.hpp"
-#include "databuffer/session/validated.hpp"
-#include "gateway/authority.hpp"
-#include "gateway/clock_offset.hpp"
 #include "gateway/exchange/context.hpp"
-#include "gateway/pace.hpp"
-#include "lib/log/log.hpp"
 
 namespace yars::gateway {
-
-// The owner's clock as it was last received, and as it was last written here.
-struct FollowedClock {
-  databuffer::ClockState theirs{};
-  databuffer::ClockState written{};
-  SlewedOffset offset;
-  std::int64_t changed_ns = 0;  // last pass
-};
 
 // ClockRequestSample::new_epoch.
 enum class EpochRequest : std::uint32_t { change, change_with_new_epoch, end_of_epoch };
@@ -40,7 +23,6 @@ enum class EpochRequest : std::uint32_t { change, change_with_new_epoch, end_of_
 class ClockExchange {
  public:
   void exchange(Context& context) {
-    if (first_pass_ns_ == 0) first_pass_ns_ = context.now_ns;
     context.take<yars_net_ClockSample, yars_net_ClockRequestSample>(*this);
     choose_owner(context);
     if (owns_)
@@ -61,8 +43,7 @@ class ClockExchange {
     const HostView* host = context.hosts.find(sample.host);
     if (!context.hosts.is_new(sample) || sample.owner != context.hosts.self().id || !owns_ || host == nullptr) return;
     const auto before = context.valid<ClockState>(sample, sample.before);
-    if (!before) return;
-    const auto after = context.valid<ClockState>(sample, sample.clock);
+    const auto after = before ? context.valid<ClockState>(sample, sample.clock) : std::nullopt;
     if (!after) return;
     const RequestedChange change{*before, *after, sample.new_epoch != static_cast<std::uint32_t>(EpochRequest::change)};
     const ClockState& wanted = change.after;
@@ -103,13 +84,12 @@ class ClockExchange {
   static constexpr std::int64_t kMaxBehind_ns = 100'000'000;     // kMaxTicksBehind ticks
   static constexpr std::int64_t kRounding_ns = 1'000;            // of sim times that are equal but for their base
 
-  // The later of two epochs, which count on from 0 after the greatest number.
-  static std::uint32_t later(std::uint32_t first, std::uint32_t second) {
-    return static_cast<std::int32_t>(second - first) > 0 ? second : first;
-  }
-
+  // Epochs count on from 0 after the greatest number.
   static bool is_later(std::uint32_t first, std::uint32_t second) {
-    return first != second && later(first, second) == first;
+    return static_cast<std::int32_t>(first - second) > 0;
+  }
+  static std::uint32_t later(std::uint32_t first, std::uint32_t second) {
+    return is_later(second, first) ? second : first;
   }
 
   // The clock with its base moved to `now_ns`; sim time does not change.
@@ -119,6 +99,12 @@ class ClockExchange {
     return clock;
   }
 
+  // The owner's clock as it was last received, and as it was last written here.
+  struct FollowedClock {
+    ClockState theirs{}, written{};
+    SlewedOffset offset;
+    std::int64_t changed_ns = 0;  // last pass
+  };
   // A change that another host has made to its clock at `after.base_monotonic_ns`.
   struct RequestedChange {
     ClockState before, after;
@@ -160,7 +146,7 @@ class ClockExchange {
     };
     const HostView* owner = preceding(context.hosts.views(), owns);
     resolve_conflicts(context);
-    const bool listened = context.now_ns - first_pass_ns_ >= kListening_ns;
+    const bool listened = context.hosts.age_ns(context.now_ns) >= kListening_ns;
     const std::size_t rank = rank_of(context.hosts.views(), context.hosts.self());
     const bool may_own = listened && owner == nullptr && context.writes(dds::Topic::clock);
     if (vacancy_.may_take(may_own, rank, context.now_ns)) {
@@ -190,13 +176,15 @@ class ClockExchange {
     const bool has_begun = epoch_begun_ns_ != 0 && context.now_ns - epoch_begun_ns_ < kOneMeeting_ns;
     if (gives_way && !gave_way_ && !has_begun) meeting_epoch_ = context.session.clock().epoch;
     gave_way_ = gives_way;
+    const std::uint32_t own_epoch = context.session.clock().epoch;
+    std::uint32_t epoch = own_epoch;
     bool conflict = context.roles.in_conflict();
     bool precedes_all = owns_;
-    std::uint32_t epoch = context.session.clock().epoch;
     for (const HostView& host : context.hosts.views().subspan(1)) {
-      if (host.owns_clock || host.held_roles != 0) epoch = later(epoch, context.hosts.said_by(host.id).epoch);
+      const std::uint32_t theirs = context.hosts.said_by(host.id).epoch;
+      if (host.owns_clock || host.held_roles != 0) epoch = later(epoch, theirs);
       if (!owns_ || !host.owns_clock) continue;
-      conflict = conflict || is_later(context.hosts.said_by(host.id).epoch, context.session.clock().epoch);
+      conflict = conflict || is_later(theirs, own_epoch);
       precedes_all = precedes_all && precedes(context.hosts.self(), host);
     }
     if (conflict && !in_conflict_ && precedes_all) raise_epoch(context, epoch);
@@ -234,8 +222,7 @@ class ClockExchange {
     const ClockState clock = context.session.clock();
     if (!pace_.is_due(!equal(clock, published_), context.now_ns)) return;
     published_ = clock;
-    yars_net_ClockSample sample{};
-    context.hosts.stamp(sample);
+    auto sample = context.made<yars_net_ClockSample>();
     copy_record(sample.clock, clock);
     context.write(sample);
   }
@@ -321,8 +308,7 @@ class ClockExchange {
   }
 
   void request(Context& context, const ClockState& before, const ClockState& wanted, EpochRequest epoch) {
-    yars_net_ClockRequestSample sample{};
-    context.hosts.stamp(sample);
+    auto sample = context.made<yars_net_ClockRequestSample>();
     sample.owner = owner_;
     sample.new_epoch = static_cast<std::uint32_t>(epoch);
     // The change may have been made after this pass began.
@@ -356,10 +342,9 @@ class ClockExchange {
   std::optional<std::uint32_t> meeting_epoch_;  // in it this host gave way to another; it must end
   Pace meeting_pace_{kRequestTime_ns};
   std::int64_t epoch_begun_ns_ = 0;  // when the owner began the present epoch; 0: before this host followed it
-  std::int64_t first_pass_ns_ = 0;
   Vacancy vacancy_;
   std::uint64_t owner_ = 0;  // 0: none
-  databuffer::ClockState published_{};
+  ClockState published_{};
   Pace pace_{250'000'000};
   HostMemory<yars_net_ClockSample> clocks_;
   std::optional<FollowedClock> followed_;

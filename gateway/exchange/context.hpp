@@ -1,19 +1,24 @@
 // What every exchange between the local segment and the other hosts needs: one pass of the gateway, records of other
-// hosts, and the memory of these hosts.
+// hosts, and the memory of these hosts. The headers below are for all exchanges, which include this one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <optional>
+#include <string>
+#include <utility>
 
-#include "databuffer/messages/validation.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/validated.hpp"
 #include "gateway/dds/link.hpp"
 #include "gateway/exchange/hosts.hpp"
 #include "gateway/exchange/roles.hpp"
+#include "gateway/pace.hpp"
+#include "lib/log/log.hpp"
 
 namespace yars::gateway {
 
@@ -42,6 +47,13 @@ struct Context {
   std::int64_t now_ns = 0;  // CLOCK_MONOTONIC at the start of the pass
   bool lockstep = false;    // the session runs in lockstep: every tick is exchanged
 
+  // An empty sample with the host, start and number of this host.
+  template <class Sample>
+  Sample made() {
+    Sample sample{};
+    hosts.stamp(sample);
+    return sample;
+  }
   // As Link::write() and Link::writes(). Without a link every sample counts as written.
   template <class Sample>
   bool write(const Sample& sample) {

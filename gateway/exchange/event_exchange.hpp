@@ -9,17 +9,6 @@
 // Source: docs/network.md#each-event-once.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <iterator>
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
-
-#include "databuffer/session/session_layout.hpp"
-#include "databuffer/session/validated.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"
 #include "lib/text/plain_text.hpp"
@@ -118,9 +107,7 @@ class EventExchange {
   static std::int64_t local_time_ns(const Context& context, std::uint64_t host, std::int64_t time_ns) {
     const auto offset_ns = context.hosts.offset_ns(host);
     if (!offset_ns) return context.now_ns;
-    const auto local =
-        static_cast<std::int64_t>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(*offset_ns));
-    return std::clamp<std::int64_t>(local, 0, databuffer::monotonic_ns());
+    return std::clamp<std::int64_t>(difference_ns(time_ns, *offset_ns), 0, databuffer::monotonic_ns());
   }
 
   struct Sending {
@@ -130,9 +117,9 @@ class EventExchange {
     std::uint64_t machine_term = 0;  // to which the events were sent
   };
   struct Receiving {
-    std::uint64_t sender = 0;
-    std::uint32_t lane = 0;
-    std::uint64_t segment = 0;
+    std::uint64_t sender;
+    std::uint32_t lane;
+    std::uint64_t segment;
     std::optional<databuffer::Claim> claim = std::nullopt;
     std::uint64_t next_event = 0;
     std::optional<std::size_t> local_lane = std::nullopt;  // in which its last events are, claimed or not
@@ -191,8 +178,7 @@ class EventExchange {
     databuffer::InputEvent event{};
     for (; sending.next != end; ++sending.next) {
       if (!input.peek_at(lane, sending.next, event)) return;
-      yars_net_InputEventSample sample{};
-      context.hosts.stamp(sample);
+      auto sample = context.made<yars_net_InputEventSample>();
       sample.lane = static_cast<std::uint32_t>(lane);
       sample.segment = context.hosts.identity().segment;
       sample.event_number = sending.next;
@@ -210,19 +196,16 @@ class EventExchange {
     if (found != receiving_.end()) return &found->second;
     constexpr std::size_t kMaxRemoteLanes = databuffer::kMaxHosts * databuffer::kInputLanes;
     if (receiving_.size() >= kMaxRemoteLanes) return nullptr;
-    Receiving receiving;
-    receiving.sender = sample.host;
-    receiving.lane = sample.lane;
-    receiving.segment = sample.segment;
+    Receiving receiving{sample.host, sample.lane, sample.segment};
     // An entry of this gateway's predecessor says what has been delivered. Without one this is the first event.
     const auto& layout = std::as_const(context.session).layout();
-    for (const databuffer::RemoteProgress& entry : layout.network.input) {
-      if (entry.source.load() != id) continue;
-      const std::uint64_t progress = entry.progress.load();
+    if (const auto* entry = find_entry(layout.network.input, id)) {
+      const std::uint64_t progress = entry->progress.load();
       const std::size_t lane = lane_of(progress);
-      if (lane >= databuffer::kInputLanes) continue;
-      receiving.next_event = next_of(progress, layout.input.pushed(lane), sample.event_number);
-      if (ends_with(progress, layout.input.pushed(lane))) receiving.local_lane = lane;
+      if (lane < databuffer::kInputLanes) {
+        receiving.next_event = next_of(progress, layout.input.pushed(lane), sample.event_number);
+        if (ends_with(progress, layout.input.pushed(lane))) receiving.local_lane = lane;
+      }
     }
     return &receiving_.emplace(id, std::move(receiving)).first->second;
   }
@@ -251,15 +234,8 @@ class EventExchange {
   // Writes the entry of a remote lane. A new entry replaces one of a lane that is no longer known.
   void keep_progress(Context& context, const Receiving& receiving, std::uint64_t progress) {
     const std::uint64_t id = lane_id(receiving.sender, receiving.segment, receiving.lane);
-    auto& entries = context.session.layout().network.input;
-    databuffer::RemoteProgress* entry = &entry_of(entries, id);
-    const std::uint64_t present = entry->source.load();
-    if (present != id && present != 0) {
-      const auto unknown = std::ranges::find_if(
-          entries, [this](const auto& other) { return !receiving_.contains(other.source.load()); });
-      if (unknown != entries.end()) entry = &*unknown;
-    }
-    store_progress(*entry, id, progress);
+    const auto is_known = [this](std::uint64_t source) { return receiving_.contains(source); };
+    store_progress(entry_of(context.session.layout().network.input, id, is_known), id, progress);
   }
 
   // An event that finds no room is repeated by its sender.
@@ -289,8 +265,7 @@ class EventExchange {
       if (taken == 0 || (taken == receiving.receipted && !receiving.receipt_due)) continue;
       receiving.receipt_due = false;
       receiving.receipted = taken;
-      yars_net_EventReceiptSample sample{};
-      context.hosts.stamp(sample);
+      auto sample = context.made<yars_net_EventReceiptSample>();
       sample.sender = receiving.sender;
       sample.lane = receiving.lane;
       sample.segment = receiving.segment;

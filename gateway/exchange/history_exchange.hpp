@@ -8,17 +8,9 @@
 //   numbers.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <deque>
-#include <optional>
-#include <string>
 
 #include "databuffer/messages/record_hashes.hpp"
-#include "databuffer/session/session_layout.hpp"
-#include "databuffer/session/validated.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"
 #include "runtime/tick_loop.hpp"
@@ -51,31 +43,29 @@ class HistoryExchange {
   // their age can be judged. At the end of a lockstep run they are taken also without a holder: a last done tick waits
   // for them.
   void receive(Context& context) {
-    const bool is_known = knows_model(context);
-    if (!is_known && !is_last_tick(context)) return;
     const auto newest = [&context] {
       const auto status = databuffer::read_valid(std::as_const(context.session).layout().model_status);
       return status ? std::optional(status->tick) : std::nullopt;
     };
     const auto holder = context.roles.holder(Role::radar_model);
-    if (is_known && !may_begin(context, dds::Topic::model_ticks, *holder, newest)) return;
-    context.take<yars_net_LatchedTrafficSample, yars_net_ModelTickSample, yars_net_SweepSample>(*this);
+    if (knows_model(context) ? may_begin(context, dds::Topic::model_ticks, *holder, newest) : is_last_tick(context))
+      context.take<yars_net_LatchedTrafficSample, yars_net_ModelTickSample, yars_net_SweepSample>(*this);
+    publish(context);
   }
 
   // Publishes what has arrived and is in order.
   void publish(Context& context) {
     auto& layout = context.session.layout();
     if (!context.roles.source(Role::radar_model)) {
-      ticks_.clear();
-      sweeps_.clear();
+      ticks_ = {};
+      sweeps_ = {};
       last_tick_ = {};
       missing_world_ = 0;
-      tick_order_ = sweep_order_ = {};
       return;
     }
     const auto is_late = [&context](std::int64_t arrived_ns) { return context.now_ns - arrived_ns > kPatience_ns; };
-    while (!ticks_.empty()) {
-      auto& waiting = ticks_.front();
+    while (!ticks_.waiting.empty()) {
+      auto& waiting = ticks_.waiting.front();
       databuffer::ModelTick& tick = waiting.record;
       const auto traffic = traffic_numbers_.local(tick.traffic);
       const auto world = worlds_->local(waiting.host, tick.world);
@@ -87,17 +77,19 @@ class HistoryExchange {
       tick_history_.publish(context, waiting, tick);
       last_tick_ = {tick.epoch, tick.tick};
       last_host_ = waiting.host;
-      ticks_.pop_front();
+      ticks_.waiting.pop_front();
     }
-    while (!sweeps_.empty()) {
-      const auto& waiting = sweeps_.front();
+    while (!sweeps_.waiting.empty()) {
+      const auto& waiting = sweeps_.waiting.front();
       if (last_tick_.precedes(waiting.record) && !is_late(waiting.arrived_ns)) break;
       sweep_history_.publish(context, waiting, waiting.record);
-      sweeps_.pop_front();
+      sweeps_.waiting.pop_front();
     }
   }
 
-  bool is_empty() const { return ticks_.empty() && sweeps_.empty(); }  // nothing waits for its predecessor
+  bool is_empty() const {
+    return ticks_.waiting.empty() && sweeps_.waiting.empty();
+  }  // nothing waits for its predecessor
 
   void receive(Context& context, const yars_net_LatchedTrafficSample& sample) {
     // Traffic is valid until the next record, so that also an old one is taken.
@@ -112,11 +104,10 @@ class HistoryExchange {
     if (!tick_history_.is_wanted(context, sample, sample.tick.tick) || is_past(context, sample.host, sample.tick))
       return;
     auto tick = context.valid<databuffer::ModelTick>(sample, sample.tick);
-    if (!tick || !is_in_order(context, sample, *tick, tick_order_)) return;
+    if (!tick) return;
     tick->ownship_lane =
         lanes_->local_ownship_lane({sample.ownship_host, tick->ownship_lane}, context.hosts.self().id, kNoLane);
-    if (ticks_.size() < kMaxWaiting)
-      ticks_.push_back({*tick, context.now_ns, sample.host, sample.start, sample.number});
+    keep(context, sample, *tick, ticks_);
   }
 
   void receive(Context& context, const yars_net_SweepSample& sample) {
@@ -132,9 +123,7 @@ class HistoryExchange {
     if (const auto reason = validate(sweep)) return context.hosts.refuse(sample, *reason);
     if (databuffer::sweep_hash(sweep) != sweep.hash)
       return context.hosts.refuse(sample, "hash: expected that of the video, found another");
-    if (!is_in_order(context, sample, sweep, sweep_order_)) return;
-    if (sweeps_.size() < kMaxWaiting)
-      sweeps_.push_back({sweep, context.now_ns, sample.host, sample.start, sample.number});
+    keep(context, sample, sweep, sweeps_);
   }
 
  private:
@@ -149,6 +138,11 @@ class HistoryExchange {
     Record record;
     std::int64_t arrived_ns;
     std::uint64_t host, start, number;  // of its sample
+  };
+  template <class Record>
+  struct Queue {
+    std::deque<Waiting<Record>> waiting;  // for their predecessors
+    TickOrder order;
   };
   // The last tick that was published. Ticks count from 0 again in a new epoch.
   struct LastTick {
@@ -170,19 +164,20 @@ class HistoryExchange {
     return host != last_host_ && goes_back;
   }
 
-  // False: the record is refused, because its sim time is not that of its tick, or its tick goes back.
+  // Keeps a record until its predecessors have come. It is refused if its sim time is not that of its tick, or if its
+  // tick goes back.
   template <class Sample, class Record>
-  bool is_in_order(Context& context, const Sample& sample, const Record& record, TickOrder& order) {
+  void keep(Context& context, const Sample& sample, const Record& record, Queue<Record>& queue) {
     const auto refuse = [&](const char* field, const std::string& expected, std::int64_t found) {
       context.hosts.refuse(sample, field + std::string(": expected ") + expected + ", found " + std::to_string(found));
-      return false;
     };
     const std::int64_t due_ns = record.tick * radar::kTickNanoseconds;
     if (record.sim_time_ns != due_ns)
       return refuse("sim_time_ns", std::to_string(due_ns) + ", that of the tick", record.sim_time_ns);
-    if (!order.follows(sample.host, record.epoch, record.tick))
+    if (!queue.order.follows(sample.host, record.epoch, record.tick))
       return refuse("tick", "one after that of the record before", record.tick);
-    return true;
+    if (queue.waiting.size() < kMaxWaiting)
+      queue.waiting.push_back({record, context.now_ns, sample.host, sample.start, sample.number});
   }
 
   LaneNames* lanes_;
@@ -196,10 +191,9 @@ class HistoryExchange {
   ModelHistory<yars_net_LatchedTrafficSample, databuffer::Traffic, &Layout::traffic_latched> traffic_history_{kRecent};
   ModelHistory<yars_net_ModelTickSample, databuffer::ModelTick, &Layout::model_ticks> tick_history_{kRecent};
   ModelHistory<yars_net_SweepSample, databuffer::Sweep, &Layout::sweeps> sweep_history_{kRecent};
-  std::deque<Waiting<databuffer::ModelTick>> ticks_;
-  std::deque<Waiting<databuffer::Sweep>> sweeps_;
+  Queue<databuffer::ModelTick> ticks_;
+  Queue<databuffer::Sweep> sweeps_;
   RecordNumbers<64> traffic_numbers_;  // the depth of the ring
-  TickOrder tick_order_, sweep_order_;
   LastTick last_tick_;
   std::uint64_t last_host_ = 0;  // from which it came
 };

@@ -1,13 +1,7 @@
 // Histories (rings) of a host on every host: each record is taken once, also by a restarted gateway.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <deque>
-#include <optional>
-#include <utility>
 
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/progress.hpp"
@@ -122,10 +116,8 @@ class History {
   bool is_wanted(Context& context, const Sample& sample, std::int64_t tick) const {
     const std::uint64_t source = source_id({sample.host, sample.start});
     const auto& layout = std::as_const(context.session).layout();
-    const auto& entries = layout.network.histories[kIndex];
     if (!context.hosts.numbers(kTopic, sample.host).knows(sample.start)) {
-      const auto entry = std::ranges::find_if(entries, [&](const auto& one) { return one.source.load() == source; });
-      if (entry != entries.end())
+      if (const auto* entry = find_entry(layout.network.histories[kIndex], source))
         context.hosts.resume(kTopic, sample.host, sample.start,
                              next_of(entry->progress.load(), (layout.*kRing).next(), sample.number));
       else if (!context.lockstep && tick < (context.session.sim_time_ns() - kMaxFirstAge_ns) / radar::kTickNanoseconds)

@@ -37,34 +37,32 @@ struct Identity {
   std::uint64_t configuration_hash = 0, terrain_hash = 0;  // 0: unknown
 };
 
+constexpr std::uint32_t bit_of(databuffer::Role role) {
+  return 1U << static_cast<unsigned>(role);
+}
+
 // [ns] A host that has not announced itself for so long is lost: five announcements. With a shorter time a loaded
 // machine would lose its hosts. With a longer one a dead host would keep its roles.
 inline constexpr std::int64_t kLease_ns = 500'000'000;
 
 // Topics in which the records of a role reach the other hosts. Who cannot write them does not have the role.
-struct RoleTopic {
-  databuffer::Role role;
-  dds::Topic topic;
-};
-inline constexpr std::array<RoleTopic, 10> kRoleTopics{{
-    {databuffer::Role::radar_model, dds::Topic::model_status},
-    {databuffer::Role::radar_model, dds::Topic::model_ticks},
-    {databuffer::Role::radar_model, dds::Topic::sweeps},
-    {databuffer::Role::state_machine, dds::Topic::radar_state},
-    {databuffer::Role::state_machine, dds::Topic::outputs},
-    {databuffer::Role::state_machine, dds::Topic::applied_events},
-    {databuffer::Role::state_machine, dds::Topic::event_receipts},
-    {databuffer::Role::traffic, dds::Topic::traffic},
-    {databuffer::Role::recorder, dds::Topic::recorder_status},
-    {databuffer::Role::tour, dds::Topic::captions},
-}};
+inline constexpr std::array kRoleTopics{std::pair{databuffer::Role::radar_model, dds::Topic::model_status},
+                                        std::pair{databuffer::Role::radar_model, dds::Topic::model_ticks},
+                                        std::pair{databuffer::Role::radar_model, dds::Topic::sweeps},
+                                        std::pair{databuffer::Role::state_machine, dds::Topic::radar_state},
+                                        std::pair{databuffer::Role::state_machine, dds::Topic::outputs},
+                                        std::pair{databuffer::Role::state_machine, dds::Topic::applied_events},
+                                        std::pair{databuffer::Role::state_machine, dds::Topic::event_receipts},
+                                        std::pair{databuffer::Role::traffic, dds::Topic::traffic},
+                                        std::pair{databuffer::Role::recorder, dds::Topic::recorder_status},
+                                        std::pair{databuffer::Role::tour, dds::Topic::captions}};
 // Roles all topics of which may be written, as writes(topic) says. Bit n: role n.
 template <class Writes>
 std::uint32_t writable_roles(const Writes& writes) {
   std::uint32_t roles = 0, barred = 0;
   for (const auto& [role, topic] : kRoleTopics) {
-    roles |= 1U << static_cast<unsigned>(role);
-    if (!writes(topic)) barred |= 1U << static_cast<unsigned>(role);
+    roles |= bit_of(role);
+    if (!writes(topic)) barred |= bit_of(role);
   }
   return roles & ~barred;
 }
@@ -85,21 +83,18 @@ class Hosts {
         [this](const yars_net_ProbeSample& sample) { receive(sample, databuffer::monotonic_ns()); });
   }
   void set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch) {
-    const std::uint32_t owns = owns_clock ? 1 : 0;
-    if (own_.held_roles != held_roles || own_.owns_clock != owns || own_.epoch != epoch) changed_ = true;
-    views_.front().held_roles = own_.held_roles = held_roles;
+    views_.front().held_roles = held_roles;
     views_.front().owns_clock = owns_clock;
-    own_.owns_clock = owns;
-    own_.epoch = epoch;
+    changed_ |= std::exchange(own_.held_roles, held_roles) != held_roles;
+    changed_ |= (std::exchange(own_.owns_clock, owns_clock ? 1 : 0) != 0) != owns_clock;
+    changed_ |= std::exchange(own_.epoch, epoch) != epoch;
   }
   // Those of shown_processes() that take part on this host.
   void set_processes(std::uint32_t processes) { own_.processes = processes; }
   // While two hosts hold one role, the number of hosts that this host heard before stays as it is.
   void set_conflict(bool in_conflict) { in_conflict_ = in_conflict; }
   // Events for the state machine of this host carry this number. 0: it runs elsewhere.
-  void set_machine_term(std::uint64_t term) {
-    if (std::exchange(own_.machine_term, term) != term) changed_ = true;
-  }
+  void set_machine_term(std::uint64_t term) { changed_ |= std::exchange(own_.machine_term, term) != term; }
   std::uint64_t machine_term() const { return own_.machine_term; }
 
   void receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns);
@@ -109,6 +104,7 @@ class Hosts {
   std::span<const HostView> views() const { return views_; }
   const HostView& self() const { return views_.front(); }
   const Identity& identity() const { return identity_; }
+  std::int64_t age_ns(std::int64_t now_ns) const { return now_ns - began_ns_; }  // time since this gateway began
   // Among views(); nullptr: none.
   const HostView* find(std::uint64_t id) const {
     const auto found = std::ranges::find(views_, id, &HostView::id);
@@ -130,7 +126,7 @@ class Hosts {
   }
   std::uint64_t start_of(std::uint64_t id) const { return said_by(id).start; }
 
-  // Writes host, start and number into a sample. Numbers count up by topic.
+  // Writes host, start and number into a sample of this host. Numbers count up by topic.
   template <class Sample>
   void stamp(Sample& sample) {
     sample.host = self().id;
@@ -228,7 +224,7 @@ class Hosts {
   bool changed_ = true;
   bool in_conflict_ = false;
   Pace announcements_{kLease_ns / 5};  // four may be lost
-  std::int64_t last_pass_ns_ = 0;
+  std::int64_t began_ns_ = databuffer::monotonic_ns(), last_pass_ns_ = 0;
   std::int64_t paused_until_ns_ = 0;  // ends of hosts that DDS reports until then follow from a pause of this process
   std::deque<std::pair<std::int64_t, std::uint32_t>> group_sizes_;  // time of each change, number of hosts from then on
 };

@@ -7,17 +7,7 @@
 // Source: docs/architecture.md#time; TickLoop (runtime/tick_loop.hpp).
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <utility>
-
-#include "databuffer/session/session_layout.hpp"
-#include "databuffer/session/validated.hpp"
 #include "gateway/exchange/context.hpp"
-#include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "runtime/tick_loop.hpp"
 
@@ -36,12 +26,10 @@ class LockstepExchange {
   // Sends the done ticks that begin_pass() found, after the records.
   void send(Context& context) {
     for (std::size_t role = 0; role < done_.size(); ++role) {
-      const bool is_ours = done_[role] > known_[role];
-      if (!is_ours) continue;
+      if (done_[role] <= known_[role]) continue;  // of another host
       known_[role] = done_[role];
       performers_[role] = {};
-      yars_net_LockstepSample sample{};
-      context.hosts.stamp(sample);
+      auto sample = context.made<yars_net_LockstepSample>();
       sample.role = static_cast<std::uint32_t>(role);
       sample.done_tick = done_[role];
       sample.end = end_word(std::as_const(context.session).layout().lockstep);
@@ -51,7 +39,11 @@ class LockstepExchange {
     }
   }
 
-  void receive(Context& context) { context.take<yars_net_LockstepSample>(*this); }
+  // `in_order`: as for apply().
+  void receive(Context& context, bool in_order) {
+    context.take<yars_net_LockstepSample>(*this);
+    apply(context, in_order);
+  }
   void receive(Context& context, const yars_net_LockstepSample& sample) {
     if (!context.hosts.is_new(sample)) return;
     if (sample.role >= databuffer::kLockstepRoles || sample.done_tick < 0 ||

@@ -5,17 +5,11 @@
 // Errors: an invalid map is refused, counted and noted. A map without a free slot is noted.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "databuffer/session/picture_pool.hpp"
-#include "databuffer/session/session_layout.hpp"
-#include "databuffer/session/validated.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"
-#include "gateway/pace.hpp"
 #include "gateway/patch_assembly.hpp"
 
 namespace yars::gateway {
@@ -31,8 +25,9 @@ class MapExchange {
   }
 
   void receive(Context& context) {
-    if (!context.roles.holder(Role::radar_model) && !is_last_tick(context)) return;
-    context.take<yars_net_PatchMapSample, yars_net_PatchRowSample>(*this);
+    if (context.roles.holder(Role::radar_model) || is_last_tick(context))
+      context.take<yars_net_PatchMapSample, yars_net_PatchRowSample>(*this);
+    publish(context);
   }
 
   void receive(Context& context, const yars_net_PatchMapSample& sample) {
@@ -93,8 +88,7 @@ class MapExchange {
       if (!databuffer::read_patch(layout, id, map, sent.pixels) || validate(map)) continue;
       sent.id = id;
       sent.size = map.size;
-      yars_net_PatchMapSample sample{};
-      context.hosts.stamp(sample);
+      auto sample = context.made<yars_net_PatchMapSample>();
       sample.id = id;
       copy_record(sample.map, map);
       context.write(sample);
@@ -122,8 +116,7 @@ class MapExchange {
 
   void send_rows(Context& context, Sent& sent) {
     while (!sent.pixels.empty() && (context.lockstep || rows_.take(context.now_ns))) {
-      yars_net_PatchRowSample sample{};
-      context.hosts.stamp(sample);
+      auto sample = context.made<yars_net_PatchRowSample>();
       sample.id = sent.id;
       sample.row = sent.next_row;
       sample.length = sent.size;

@@ -6,20 +6,22 @@
 //   repetition.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
+#include <string_view>
 
 #include "databuffer/session/session_layout.hpp"
+#include "gateway/host_id.hpp"
 
 namespace yars::gateway {
 
-// Name of a container of another host: FNV-1a over the numbers; not 0.
+// Name of a container of another host: FNV-1a over the bytes of the numbers; not 0.
 inline std::uint64_t source_id(std::initializer_list<std::uint64_t> numbers) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const std::uint64_t number : numbers)
-    for (int byte = 0; byte < 8; ++byte) hash = (hash ^ (number >> (8 * byte) & 0xFFU)) * 0x100000001b3U;
-  return hash == 0 ? 1 : hash;
+  const std::string_view bytes(reinterpret_cast<const char*>(numbers.begin()), numbers.size() * sizeof(std::uint64_t));
+  return std::max<std::uint64_t>(host_id(bytes), 1);
 }
 
 inline constexpr std::uint64_t kLocalMask = 0x07FF'FFFFU;
@@ -34,8 +36,7 @@ inline std::size_t lane_of(std::uint64_t progress) {
 
 // True if a container with `local` records ends with the last record of an entry, or still lacks it.
 inline bool ends_with(std::uint64_t progress, std::uint64_t local) {
-  const std::uint64_t since = (local - progress) & kLocalMask;
-  return since <= 1;
+  return ((local - progress) & kLocalMask) <= 1;
 }
 
 // Number of the next record to take, according to an entry. `local`: number of records in the container now. `near`: a
@@ -47,15 +48,25 @@ inline std::uint64_t next_of(std::uint64_t progress, std::uint64_t local, std::u
   return is_missing ? next - 1 : next;
 }
 
-// Entry of a source in the table of one history: its own, else a free one, else the one at `source % size`.
+// Entry of a source in a table; nullptr: it has none.
 template <class Entries>
-databuffer::RemoteProgress& entry_of(Entries& entries, std::uint64_t source) {
-  databuffer::RemoteProgress* free = nullptr;
-  for (databuffer::RemoteProgress& entry : entries) {
-    if (entry.source.load() == source) return entry;
-    if (free == nullptr && entry.source.load() == 0) free = &entry;
-  }
-  return free != nullptr ? *free : entries[source % entries.size()];
+auto find_entry(Entries& entries, std::uint64_t source) {
+  const auto found =
+      std::ranges::find_if(entries, [source](const auto& entry) { return entry.source.load() == source; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+// The entry to write: that of the source, else a free one, else one of a source that is not known, else the one at
+// `source % size`.
+template <class Entries>
+databuffer::RemoteProgress& entry_of(
+    Entries& entries, std::uint64_t source,
+    const std::function<bool(std::uint64_t)>& is_known = [](auto) { return true; }) {
+  for (const std::uint64_t wanted : {source, std::uint64_t{0}})
+    if (auto* entry = find_entry(entries, wanted)) return *entry;
+  const auto unknown =
+      std::ranges::find_if(entries, [&is_known](const auto& entry) { return !is_known(entry.source.load()); });
+  return unknown != entries.end() ? *unknown : entries[source % entries.size()];
 }
 
 // Writes an entry. Call it before the record is written in the local container.

@@ -75,8 +75,7 @@ class Roles {
   bool exports(databuffer::Role role) const {
     const State& state = state_of(role);
     if (!state.local || state.barred) return false;
-    return !state.exclusive ||
-           (session_->layout().network.yielding_roles.load() >> static_cast<unsigned>(role) & 1U) == 0;
+    return !state.exclusive || (session_->layout().network.yielding_roles.load() & bit_of(role)) == 0;
   }
 
   // Host with the role, this one included; nullopt: none.
@@ -86,7 +85,7 @@ class Roles {
   std::uint32_t held_roles() const {
     std::uint32_t bits = 0;
     for (const State& state : states_)
-      if (state.local && !state.barred) bits |= 1U << static_cast<unsigned>(state.role);
+      if (state.local && !state.barred) bits |= bit_of(state.role);
     return bits;
   }
 
@@ -120,8 +119,7 @@ class Roles {
   void update(State& state, const Hosts& hosts, std::int64_t now_ns) {
     // This host's announced claims may be one pass old; what counts here is the present.
     const auto holds = [&](const HostView& host) {
-      return host.id == hosts.self().id ? state.local && !state.barred
-                                        : (host.held_roles >> static_cast<unsigned>(state.role) & 1U) != 0;
+      return host.id == hosts.self().id ? state.local && !state.barred : (host.held_roles & bit_of(state.role)) != 0;
     };
     const HostView* holder = preceding(hosts.views(), holds);
     const bool is_self = holder != nullptr && holder->id == hosts.self().id;
@@ -141,7 +139,7 @@ class Roles {
     if (!state.exclusive && state.local) state.holder = hosts.self().id;
     // A process of this host that wants a shared role gets it. It claims the role within some ms.
     auto& wanted = session_->layout().network.wanted_roles;
-    if (!state.exclusive && (wanted.load() >> static_cast<unsigned>(state.role) & 1U) != 0) {
+    if (!state.exclusive && (wanted.load() & bit_of(state.role)) != 0) {
       set_bit(wanted, state.role, false);
       release(state);
       state.lent_until_ns = now_ns + kLending_ns;
@@ -153,8 +151,7 @@ class Roles {
     if (state.exclusive)
       set_bit(session_->layout().network.yielding_roles, state.role, state.local && (is_elsewhere || state.barred));
     // A gateway that has just started has not heard the other hosts yet.
-    if (first_update_ns_ == 0) first_update_ns_ = now_ns;
-    if (state.exclusive && now_ns - first_update_ns_ < kListening_ns) return;
+    if (state.exclusive && hosts.age_ns(now_ns) < kListening_ns) return;
     if (holder == nullptr && (may_release || !state.exclusive)) {
       state.holder.reset();
       if (!state.barred) release(state);
@@ -182,13 +179,11 @@ class Roles {
     state.session.reset();
   }
 
-  void set_bit(std::atomic<std::uint32_t>& bits, Role role, bool on) {
-    const std::uint32_t bit = 1U << static_cast<unsigned>(role);
-    if (((bits.load() & bit) != 0) == on) return;
+  static void set_bit(std::atomic<std::uint32_t>& bits, Role role, bool on) {
     if (on)
-      bits.fetch_or(bit);
+      bits.fetch_or(bit_of(role));
     else
-      bits.fetch_and(~bit);
+      bits.fetch_and(~bit_of(role));
   }
 
   const State& state_of(Role role) const {
@@ -201,7 +196,6 @@ class Roles {
   std::string session_name_;
   std::array<State, 5> states_;
   std::uint32_t takeovers_ = 0, conflicts_ = 0;
-  std::int64_t first_update_ns_ = 0;
 };
 
 }  // namespace yars::gateway

@@ -5,19 +5,12 @@
 // Errors: a value that fails validate() is refused, counted and noted; the last valid one stays.
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <optional>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 
-#include "databuffer/session/session_layout.hpp"
-#include "databuffer/session/validated.hpp"
 #include "gateway/exchange/context.hpp"
-#include "gateway/pace.hpp"
 
 namespace yars::gateway {
 
@@ -114,6 +107,7 @@ class StateExchange {
   void receive(Context& context) {
     context.take<yars_net_OwnshipSample>(*this);
     for_each([&](auto& state) { state.take(context, *lanes_); });
+    keep_lane(context);
   }
   template <class Sample>
   void receive(Context& context, const Sample& sample) {
@@ -188,8 +182,7 @@ class StateExchange {
       if (!ownship) continue;
       sent.version = version;
       sent.sent_ns = context.now_ns;
-      yars_net_OwnshipSample sample{};
-      context.hosts.stamp(sample);
+      auto sample = context.made<yars_net_OwnshipSample>();
       sample.priority = layout.ownship_priority[lane].load(std::memory_order_acquire);
       sample.lane = number;
       copy_record(sample.ownship, *ownship);

@@ -9,19 +9,9 @@
 // Source: docs/network.md#the-world.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <utility>
-
-#include "databuffer/session/session_layout.hpp"
 #include "databuffer/session/session_world.hpp"
-#include "databuffer/session/validated.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"
-#include "lib/log/log.hpp"
 
 namespace yars::gateway {
 
@@ -38,6 +28,7 @@ class WorldExchange {
   void receive(Context& context) {
     context.take<yars_net_WorldSample, yars_net_WorldRequestSample>(*this);
     if (knows_model(context) || is_last_tick(context)) context.take<yars_net_LatchedWorldSample>(*this);
+    publish(context);
   }
 
   // Writes here what the host with the role has last said, and answers requests.
@@ -89,8 +80,7 @@ class WorldExchange {
     const auto newest = databuffer::newest_world(layout);
     if (!newest) return std::nullopt;
     said_ = versions;
-    yars_net_WorldSample sample{};
-    context.hosts.stamp(sample);
+    auto sample = context.made<yars_net_WorldSample>();
     copy_record(sample.newest, *newest);
     if (const auto configured = databuffer::read_valid(layout.world_configured)) {
       sample.has_configured = 1;
@@ -117,8 +107,7 @@ class WorldExchange {
       requests.answered.store(asked << 8 | static_cast<std::uint64_t>(WorldAnswer::forbidden));
       return std::nullopt;
     }
-    yars_net_WorldRequestSample sample{};
-    context.hosts.stamp(sample);
+    auto sample = context.made<yars_net_WorldRequestSample>();
     sample.owner = *owner;
     sample.segment = context.hosts.identity().segment;
     sample.request = asked;
@@ -133,13 +122,6 @@ class WorldExchange {
   // [ns] A page that drags a shower makes some tens of changes a second. A flood would occupy radar-model.
   static constexpr std::int64_t kLeastInterval_ns = 50'000'000;
   static_assert(std::size(yars_net_WorldSample{}.answers) >= databuffer::kMaxHosts);
-
-  // True if both are one edit: what is asked for, and what has become of it. An equal edit of another host has another
-  // source_time_ns.
-  static bool is_same_edit(WorldState asked, const WorldState& found) {
-    asked.tick = found.tick;
-    return equal(asked, found);
-  }
 
   // A host that requests changes.
   struct Editor {
@@ -159,8 +141,7 @@ class WorldExchange {
     if (!latched_cursor_) latched_cursor_ = std::max<std::uint64_t>(ring.next(), 1) - 1;
     WorldState world{};
     while (ring.read(*latched_cursor_, world).delivered) {
-      yars_net_LatchedWorldSample sample{};
-      context.hosts.stamp(sample);
+      auto sample = context.made<yars_net_LatchedWorldSample>();
       sample.segment = context.hosts.identity().segment;
       sample.ring_number = *latched_cursor_ - 1;
       copy_record(sample.world, world);
@@ -249,16 +230,18 @@ class WorldExchange {
                     const databuffer::Claim& instructor) const {
     const auto asked = context.valid<WorldState>(request, request.world);
     if (!asked) return WorldAnswer::refused;
-    // In numbers without a sign, because times from another host may have any value.
-    const auto age_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(context.now_ns) -
-                                                  static_cast<std::uint64_t>(asked->source_time_ns) +
-                                                  static_cast<std::uint64_t>(*context.hosts.offset_ns(request.host)));
+    const std::int64_t age_ns =
+        difference_ns(context.now_ns, difference_ns(asked->source_time_ns, *context.hosts.offset_ns(request.host)));
     if (age_ns > databuffer::kMaxWorldRequestAge_ns || age_ns < -databuffer::kMaxWorldRequestAge_ns)
       return WorldAnswer::late;
     const auto newest = databuffer::newest_world(std::as_const(context.session).layout());
-    if (newest && is_same_edit(*asked, *newest))
-      return WorldAnswer::applied;  // by an earlier gateway, without an answer
-    if (newest && newest->edit + 1 != asked->edit) return WorldAnswer::outdated;
+    if (newest) {
+      WorldState latched = *asked;
+      latched.tick = newest->tick;
+      // By an earlier gateway, without an answer. An equal edit of another host has another source_time_ns.
+      if (equal(latched, *newest)) return WorldAnswer::applied;
+      if (newest->edit + 1 != asked->edit) return WorldAnswer::outdated;
+    }
     const auto changed = databuffer::replace_world(
         context.session, instructor, [&](const WorldState&) -> error::Expected<WorldState> { return *asked; });
     if (!changed) {
