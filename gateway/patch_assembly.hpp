@@ -44,26 +44,21 @@ class PatchAssembly {
   // A map of the host that has become whole, and is forgotten here; nullopt: none.
   std::optional<Whole> take_whole(std::uint64_t host) {
     for (auto pending = pending_.begin(); pending != pending_.end(); ++pending) {
-      if (pending->host != host || !pending->changed) continue;
-      if (!pending->map || pending->rows.size() < pending->map->size) continue;
+      if (pending->host != host || !pending->changed || !pending->map || pending->rows.size() < pending->map->size)
+        continue;
       const std::size_t size = pending->map->size;
-      const bool is_whole =
-          std::all_of(pending->rows.begin(), pending->rows.begin() + static_cast<std::ptrdiff_t>(size),
-                      [size](const auto& row) { return row.size() == size; });
-      if (!is_whole) continue;
+      const auto rows = std::span(pending->rows).first(size);
+      if (!std::ranges::all_of(rows, [size](const auto& row) { return row.size() == size; })) continue;
       pending->changed = false;
       Whole whole{*pending->map, {}};
       whole.pixels.reserve(size * size);
-      for (std::size_t row = 0; row < size; ++row)
-        whole.pixels.insert(whole.pixels.end(), pending->rows[row].begin(), pending->rows[row].end());
+      for (const auto& row : rows) whole.pixels.insert(whole.pixels.end(), row.begin(), row.end());
       if (databuffer::map_hash(whole.map, whole.pixels) != whole.map.hash) continue;
       pending_.erase(pending);
       return whole;
     }
     return std::nullopt;
   }
-
-  void clear() { pending_.clear(); }
 
  private:
   struct Pending {

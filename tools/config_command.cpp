@@ -14,8 +14,7 @@
 #include "runtime/program.hpp"
 #include "runtime/user_defaults.hpp"
 #ifdef YARS_HAS_GATEWAY
-#include "gateway/checks/computer_check.hpp"
-#include "gateway/checks/identity_check.hpp"
+#include "gateway/checks/network_check.hpp"
 #endif
 #include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"

@@ -15,8 +15,7 @@
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
 #include "databuffer/session/session.hpp"
-#include "gateway/checks/computer_check.hpp"
-#include "gateway/checks/identity_check.hpp"
+#include "gateway/checks/network_check.hpp"
 #include "gateway/dds/domain_configuration.hpp"
 #include "gateway/dds/link.hpp"
 #include "gateway/dds/participants.hpp"
@@ -40,8 +39,6 @@ namespace {
 
 using namespace yars;
 using namespace yars::gateway;
-using databuffer::Role;
-
 constexpr std::int64_t kPass_ns = 5'000'000;        // a tick at rate 1
 constexpr std::int64_t kLockstepPass_ns = 250'000;  // the roles of a lockstep run wait for each pass
 constexpr std::int64_t kMaxEnd_ns = 1'000'000'000;
@@ -288,7 +285,7 @@ error::Expected<std::vector<std::string>> check(radar::NetworkSettings& settings
 error::Expected<bool> join(const runtime::ProgramOptions& options, Joining& joining) {
   auto session = databuffer::Session::open(options.session, "gateway");
   if (!session) return tl::unexpected(session.error());
-  const auto role = session->claim(databuffer::Role::gateway);
+  const auto role = session->claim(Role::gateway);
   if (!role) return tl::unexpected(error::usage_error(role.error()));
   auto link = dds::Link::open(joining.settings, options.session);
   if (!link) return tl::unexpected(link.error());

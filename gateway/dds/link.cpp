@@ -147,7 +147,6 @@ struct Link::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
-    if (sweep.video._release) dds_free(sweep.video._buffer);
     if (domain > 0) dds_delete(domain);
     dds_set_log_sink(nullptr, nullptr);
   }
@@ -245,9 +244,7 @@ struct Link::State {
   std::array<std::uint32_t, kMaxLanes> ownship_strengths{};
   std::deque<TopicState> topics;  // Cyclone DDS keeps pointers to them
   Participants others;
-  alignas(16) std::array<std::byte, kMaxSample_bytes> taken{};
-  yars_net_SweepSample sweep{};  // Cyclone DDS allocates its video
-  Senders senders;               // in use with security
+  Senders senders;  // in use with security
   std::uint32_t passes = 0;
 };
 
@@ -319,20 +316,17 @@ void Link::end_ownship(std::uint32_t lane) {
 void Link::take_each(Topic topic, Facts (*facts_of)(const void*), const std::function<void(const void*, bool)>& take) {
   if (topic == Topic::hosts) state_->update_senders();
   TopicState& state = state_->at(topic);
-  if (state.reader <= 0) return;
   if (state.quota.strays() > kMaxStrays) state_->renew_reader(topic);
-  void* sample = topic == Topic::sweeps ? static_cast<void*>(&state_->sweep) : state_->taken.data();
-  dds_sample_info_t info{};
-  for (int taken = 0; taken < kMaxTaken && dds_take(state.reader, &sample, &info, 1, 1) > 0; ++taken) {
+  take_samples(state.reader, kMaxTaken, [&](const void* sample, const dds_sample_info_t& info) {
     const bool has_ended = info.instance_state != DDS_IST_ALIVE;
     if (has_ended) state.quota.end(info.instance_handle);
     // A sample that the reader held before its writer's lease ended comes with the end.
-    if (!info.valid_data && !(has_ended && topic == Topic::hosts)) continue;
+    if (!info.valid_data && !(has_ended && topic == Topic::hosts)) return;
     const auto [bytes, sender] = facts_of(sample);
     state.counts.received += info.valid_data ? 1 : 0;
     state.counts.received_bytes += info.valid_data ? bytes : 0;
     if (state_->is_from(topic, info.publication_handle, sender)) take(sample, info.valid_data);
-  }
+  });
 }
 
 bool Link::is_acknowledged() const {

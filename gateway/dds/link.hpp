@@ -24,8 +24,6 @@ namespace yars::gateway::dds {
 
 class Participants;
 
-inline constexpr std::size_t kMaxSample_bytes = 40960;  // of the structure of a topic
-
 class Link {
  public:
   // `session`: name of the session, which is the DDS partition.
@@ -105,7 +103,6 @@ class Link {
   }
   template <class Sample, class Take>
   void take_all(const Take& take) {
-    static_assert(sizeof(Sample) <= kMaxSample_bytes);
     take_each(kTopicOf<Sample>, &facts_of<Sample>,
               [&](const void* sample, bool alive) { take(*static_cast<const Sample*>(sample), alive); });
   }

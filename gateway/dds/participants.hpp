@@ -21,6 +21,18 @@
 
 namespace yars::gateway::dds {
 
+// Calls take(sample, info) for each sample that has arrived on a reader; the rest of a flood is left for the next call.
+template <class Take>
+void take_samples(dds_entity_t reader, int max, const Take& take) {
+  for (int taken = 0; reader > 0 && taken < max; ++taken) {
+    void* sample = nullptr;  // Cyclone DDS lends it
+    dds_sample_info_t info;
+    if (dds_take(reader, &sample, &info, 1, 1) <= 0) return;
+    take(sample, info);
+    dds_return_loan(reader, &sample, 1);
+  }
+}
+
 // One line about a participant.
 struct Remark {
   std::string text;
@@ -99,6 +111,7 @@ class Participants {
   }
 
  private:
+  static constexpr int kMaxTaken = 256;          // samples at once
   static constexpr std::size_t kMaxOthers = 64;  // participants that are remembered; forged ones beyond are not named
   // [ns] A host's writers are known some ms after itself, encrypted on a bad line half a second. With a shorter time a
   // loaded machine would name hosts that join.
@@ -116,19 +129,6 @@ class Participants {
     bool is_named = false;
     bool is_lost = false;  // take_lost_handshake() has named it
   };
-
-  // Calls take(sample, info) for what has arrived on a reader of a topic of Cyclone DDS itself.
-  template <class Sample, class Take>
-  static void take_all(dds_entity_t reader, const Take& take) {
-    constexpr int kMaxTaken = 256;
-    for (int taken = 0; reader > 0 && taken < kMaxTaken; ++taken) {
-      void* sample = nullptr;
-      dds_sample_info_t info;
-      if (dds_take(reader, &sample, &info, 1, 1) <= 0) return;
-      take(*static_cast<const Sample*>(sample), info);
-      dds_return_loan(reader, &sample, 1);
-    }
-  }
 
   static std::string property(const dds_qos_t* qos, const char* name) {
     char* value = nullptr;
@@ -152,7 +152,8 @@ class Participants {
   }
 
   void take_participants(std::int64_t now_ns) {
-    take_all<dds_builtintopic_participant_t>(participants_, [&](const auto& sample, const dds_sample_info_t& info) {
+    take_samples(participants_, kMaxTaken, [&](const void* taken, const dds_sample_info_t& info) {
+      const auto& sample = *static_cast<const dds_builtintopic_participant_t*>(taken);
       const Key key = std::to_array(sample.key.v);
       if (info.instance_state != DDS_IST_ALIVE) others_.erase(key);
       Other* other = info.instance_state == DDS_IST_ALIVE && info.valid_data ? other_of(key) : nullptr;
@@ -167,7 +168,8 @@ class Participants {
 
   // A writer may be heard of before its participant.
   void take_writers() {
-    take_all<dds_builtintopic_endpoint_t>(writers_, [&](const auto& sample, const dds_sample_info_t& info) {
+    take_samples(writers_, kMaxTaken, [&](const void* taken, const dds_sample_info_t& info) {
+      const auto& sample = *static_cast<const dds_builtintopic_endpoint_t*>(taken);
       Other* other = info.valid_data ? other_of(std::to_array(sample.participant_key.v)) : nullptr;
       std::uint32_t count = 0;
       char** partitions = nullptr;

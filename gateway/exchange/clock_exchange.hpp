@@ -231,8 +231,7 @@ class ClockExchange {
     const auto offset_ns = context.hosts.offset_ns(owner_);
     const auto* newest = clocks_.newest(context.hosts, owner_);
     if (owner_ == 0 || !offset_ns || newest == nullptr) return;
-    ClockState theirs{};
-    copy_record(theirs, newest->clock);
+    const auto theirs = std::bit_cast<ClockState>(newest->clock);
     if (followed_ && forward_local_change(context)) return;
     if (context.now_ns < request_pending_until_ns_ && followed_ && equal(theirs, followed_->theirs)) return;
     const bool unanswered = std::exchange(request_pending_until_ns_, 0) != 0;
@@ -313,9 +312,8 @@ class ClockExchange {
     sample.new_epoch = static_cast<std::uint32_t>(epoch);
     // The change may have been made after this pass began.
     const std::int64_t at_ns = std::max(context.now_ns, wanted.base_monotonic_ns);
-    const ClockState before_then = rebased(before, at_ns), wanted_then = rebased(wanted, at_ns);
-    copy_record(sample.before, before_then);
-    copy_record(sample.clock, wanted_then);
+    copy_record(sample.before, rebased(before, at_ns));
+    copy_record(sample.clock, rebased(wanted, at_ns));
     sample.clock.base_monotonic_ns = std::max<std::int64_t>(at_ns + followed_->offset.offset_ns(), 0);
     sample.before.base_monotonic_ns = sample.clock.base_monotonic_ns;
     context.write(sample);

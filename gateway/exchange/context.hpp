@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -70,8 +71,7 @@ struct Context {
   // The record in a field of a sample; nullopt: it is invalid, which is counted and noted.
   template <class Record, class Sample, class Field>
   std::optional<Record> valid(const Sample& sample, const Field& field) {
-    Record record{};
-    copy_record(record, field);
+    const auto record = std::bit_cast<Record>(field);
     const auto reason = validate(record);
     if (!reason) return record;
     hosts.refuse(sample, *reason);

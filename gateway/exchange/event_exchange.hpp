@@ -98,7 +98,6 @@ class EventExchange {
   }
 
  private:
-  using Role = databuffer::Role;
   // [ns] Without a receipt for so long, the waiting events are sent again: the receiver leaves out what it has.
   static constexpr std::int64_t kRepeatAfter_ns = 1'000'000'000;
   static constexpr std::int64_t kLaneSilence_ns = 30'000'000'000;  // then the lane here is free for others

@@ -67,7 +67,7 @@ class HistoryExchange {
     while (!ticks_.waiting.empty()) {
       auto& waiting = ticks_.waiting.front();
       databuffer::ModelTick& tick = waiting.record;
-      const auto traffic = traffic_numbers_.local(tick.traffic);
+      const auto traffic = traffic_numbers_.local(waiting.host, tick.traffic);
       const auto world = worlds_->local(waiting.host, tick.world);
       const bool waits = !traffic || (!world && tick.world != missing_world_);
       if (waits && !is_late(waiting.arrived_ns)) break;
@@ -127,7 +127,6 @@ class HistoryExchange {
   }
 
  private:
-  using Role = databuffer::Role;
   // [ns] A record waits so long for its predecessor, which is several repairs of a lost packet.
   static constexpr std::int64_t kPatience_ns = 200'000'000;
   static constexpr std::size_t kMaxWaiting = 1024;  // the depth of the rings

@@ -65,9 +65,8 @@ class TickOrder {
 // True once it is known which host has the radar model and, if that is another one, this gateway mirrors it. Samples of
 // a history wait in DDS until then.
 inline bool knows_model(const Context& context) {
-  const auto holder = context.roles.holder(databuffer::Role::radar_model);
-  return holder &&
-         (*holder == context.hosts.self().id || context.roles.source(databuffer::Role::radar_model).has_value());
+  const auto holder = context.roles.holder(Role::radar_model);
+  return holder && (*holder == context.hosts.self().id || context.roles.source(Role::radar_model).has_value());
 }
 
 // True in the last tick of a lockstep run. A role whose process has ended by then has been heard by all roles.
@@ -79,7 +78,7 @@ inline bool is_last_tick(const Context& context) {
 }
 
 // One history on its way between hosts: a ring of the segment, whose records the holder of a role writes, and a topic.
-template <class Sample, class Record, auto kRing, databuffer::Role kRole>
+template <class Sample, class Record, auto kRing, Role kRole>
 class History {
  public:
   // `recent`: a gateway that finds a local process writing the ring sends the last records again, because its
@@ -171,10 +170,8 @@ class RecordNumbers {
   }
   // Number of records in the ring here up to the one that the other host's count names; nullopt: it has not arrived.
   std::optional<std::uint64_t> local(std::uint64_t host, std::uint64_t count) const {
-    return count == 0 || host == host_ ? local(count) : std::nullopt;
-  }
-  std::optional<std::uint64_t> local(std::uint64_t count) const {
     if (count == 0) return 0;
+    if (host != host_) return std::nullopt;
     for (auto pair = pairs_.rbegin(); pair != pairs_.rend(); ++pair)
       if (pair->theirs + 1 == count) return pair->ours + 1;
     return std::nullopt;

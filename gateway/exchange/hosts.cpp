@@ -17,16 +17,14 @@ constexpr std::size_t kFirstProbes = 12;
 // Of a few answers one was on the way without a queue. A first offset by one answer was wrong by 50 ms on a bad line.
 constexpr std::size_t kEnoughAnswers = 6;
 constexpr std::int64_t kClaimPatience_ns = 3'000'000'000;
+constexpr std::uint32_t kOtherClaims = 1U << 31U;  // of Host::differences: roles or the clock that it may not have
 constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
 
-template <std::size_t N>
-bool is_text(const char (&text)[N]) {
-  const auto* end = std::find(text, text + N, '\0');
-  return end != text + N && std::all_of(text, end, [](char letter) { return letter >= ' ' && letter <= '~'; });
-}
-
 std::optional<std::string> fault_of(const yars_net_HostSample& sample) {
-  if (!is_text(sample.name) || !is_text(sample.version)) return "name and version: expected printable ASCII";
+  for (const std::string_view text : {text::text_of(sample.name), text::text_of(sample.version)})
+    if (text.size() == sizeof sample.name ||
+        !std::ranges::all_of(text, [](char letter) { return letter >= ' ' && letter <= '~'; }))
+      return "name and version: expected printable ASCII";
   if (sample.name[0] == '\0' || host_id(text::text_of(sample.name)) != sample.host)
     return "host: expected the hash of its name, found another number";
   if (sample.priority > databuffer::kMaxHostPriority)
@@ -37,20 +35,9 @@ std::optional<std::string> fault_of(const yars_net_HostSample& sample) {
 
 }  // namespace
 
-std::uint32_t shown_processes() {
-  std::uint32_t bits = 0;
-  for (const std::string_view name : {"flight-model", "input-monitor", "radar-display"})
-    if (const auto index = databuffer::counted_role(name)) bits |= 1U << *index;
-  return bits;
-}
-
 Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
     : session_(&session), link_(link), identity_(std::move(identity)) {
-  HostView self;
-  self.id = host_id(identity_.name);
-  self.name = identity_.name;
-  self.priority = identity_.priority;
-  views_.push_back(std::move(self));
+  views_.push_back({host_id(identity_.name), identity_.name, identity_.priority});
   own_.segment = identity_.segment;
   own_.layout_hash = databuffer::kLayoutIdentity.hash;
   own_.configuration_hash = identity_.configuration_hash;
@@ -112,8 +99,7 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   const auto writes = [&](dds::Topic topic) { return link_ == nullptr || link_->host_writes(sample.host, topic); };
   host->view.held_roles = sample.held_roles & writable_roles(writes);  // claims to others do not count
   host->view.owns_clock = sample.owns_clock != 0 && writes(dds::Topic::clock);
-  report_claims(*host, now_ns);
-  report_differences(*host);
+  report_differences(*host, now_ns);
   update_views();
 }
 
@@ -133,27 +119,19 @@ void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t no
   host.offset = {};
   host.next_probe_ns = now_ns;
   host.differences = 0;
-  host.claims_since_ns = now_ns;
-  host.reported_claims = false;
+  host.began_ns = now_ns;
   readmit(host, sample.start);
   if (was_alive && host.name.is_shared(now_ns)) return;  // each of those with the name would be said again and again
   say(log::info, NoteKind::restart, "hears host " + host.view.name);
 }
 
-// Says once that a host claims what it may not have. A host's writers are known some ms after it is first heard.
-void Hosts::report_claims(Host& host, std::int64_t now_ns) {
-  const bool claims =
-      (host.said.held_roles & ~host.view.held_roles) != 0 || (host.said.owns_clock != 0 && !host.view.owns_clock);
-  if (!claims) host.claims_since_ns = now_ns;
-  if (host.reported_claims || now_ns - host.claims_since_ns < kClaimPatience_ns) return;
-  host.reported_claims = true;
-  say(log::warning, NoteKind::refusal,
-      "host " + host.view.name + " claims roles or the clock, and may not write their topics; its claims are left out");
-}
-
-void Hosts::report_differences(Host& host) {
+void Hosts::report_differences(Host& host, std::int64_t now_ns) {
   const yars_net_HostSample& said = host.said;
   const std::string other = "host " + host.view.name;
+  // A host's writers are known some ms after it is first heard.
+  const bool claims = said.held_roles != host.view.held_roles || (said.owns_clock != 0) != host.view.owns_clock;
+  report(host, kOtherClaims, claims && now_ns - host.began_ns > kClaimPatience_ns,
+         other + " claims roles or the clock, and may not write their topics; its claims are left out");
   char hash[20];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(said.layout_hash));
   host.other_layout = said.layout_hash != databuffer::kLayoutIdentity.hash || said.protocol != yars_net_kProtocol;
@@ -220,15 +198,11 @@ void Hosts::receive(const yars_net_ProbeSample& sample, std::int64_t now_ns) {
 }
 
 Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
-  const auto known = std::ranges::find(hosts_, id, [](const Host& host) { return host.view.id; });
-  if (known != hosts_.end()) return &*known;
+  if (const Host* known = std::as_const(*this).host_of(id)) return const_cast<Host*>(known);
   if (!add || id == self().id) return nullptr;
   Host host;
   host.view.id = id;
-  if (hosts_.size() + 1 < databuffer::kMaxHosts) {
-    hosts_.push_back(std::move(host));
-    return &hosts_.back();
-  }
+  if (hosts_.size() + 1 < databuffer::kMaxHosts) return &hosts_.emplace_back(std::move(host));
   // A host that has left makes room, one that never announced itself first.
   const auto oldest =
       std::ranges::min_element(hosts_, {}, [](const Host& other) { return std::pair(other.alive, other.heard_ns); });
@@ -288,7 +262,7 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
     if (host.view.name.empty() || status.host_count >= databuffer::kMaxHosts) continue;
     auto& to = *add(host.view, host.said, host.name, host.alive);
     to.heard_ns = host.heard_ns;
-    to.flags |= host.differences | (host.left ? databuffer::kHostLeft : 0U);
+    to.flags |= (host.differences & ~kOtherClaims) | (host.left ? databuffer::kHostLeft : 0U);
     if (const auto best = host.offset.best()) {
       to.offset_ns = best->offset_ns;
       to.offset_error_ns = best->round_trip_ns / 2;

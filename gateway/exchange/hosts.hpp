@@ -37,38 +37,33 @@ struct Identity {
   std::uint64_t configuration_hash = 0, terrain_hash = 0;  // 0: unknown
 };
 
-constexpr std::uint32_t bit_of(databuffer::Role role) {
-  return 1U << static_cast<unsigned>(role);
+using databuffer::Role;
+
+template <class Enum>
+constexpr std::uint32_t bit_of(Enum value) {
+  return 1U << static_cast<unsigned>(value);
 }
 
 // [ns] A host that has not announced itself for so long is lost: five announcements. With a shorter time a loaded
 // machine would lose its hosts. With a longer one a dead host would keep its roles.
 inline constexpr std::int64_t kLease_ns = 500'000'000;
 
-// Topics in which the records of a role reach the other hosts. Who cannot write them does not have the role.
-inline constexpr std::array kRoleTopics{std::pair{databuffer::Role::radar_model, dds::Topic::model_status},
-                                        std::pair{databuffer::Role::radar_model, dds::Topic::model_ticks},
-                                        std::pair{databuffer::Role::radar_model, dds::Topic::sweeps},
-                                        std::pair{databuffer::Role::state_machine, dds::Topic::radar_state},
-                                        std::pair{databuffer::Role::state_machine, dds::Topic::outputs},
-                                        std::pair{databuffer::Role::state_machine, dds::Topic::applied_events},
-                                        std::pair{databuffer::Role::state_machine, dds::Topic::event_receipts},
-                                        std::pair{databuffer::Role::traffic, dds::Topic::traffic},
-                                        std::pair{databuffer::Role::recorder, dds::Topic::recorder_status},
-                                        std::pair{databuffer::Role::tour, dds::Topic::captions}};
-// Roles all topics of which may be written, as writes(topic) says. Bit n: role n.
+// Roles whose records reach the other hosts in topics that may be written, as writes(topic) says. Bit n: role n. Who
+// cannot write one of them does not have the role.
 template <class Writes>
 std::uint32_t writable_roles(const Writes& writes) {
-  std::uint32_t roles = 0, barred = 0;
-  for (const auto& [role, topic] : kRoleTopics) {
-    roles |= bit_of(role);
-    if (!writes(topic)) barred |= bit_of(role);
-  }
-  return roles & ~barred;
+  using enum dds::Topic;
+  const auto bit = [&writes](Role role, auto... topics) { return (writes(topics) && ...) ? bit_of(role) : 0U; };
+  return bit(Role::radar_model, model_status, model_ticks, sweeps) |
+         bit(Role::state_machine, radar_state, outputs, applied_events, event_receipts) | bit(Role::traffic, traffic) |
+         bit(Role::recorder, recorder_status) | bit(Role::tour, captions);
 }
 
 // Processes without a lock byte that `yars status` shows on all hosts. Bit n: that with the name kLockstepRoleNames[n].
-std::uint32_t shown_processes();
+constexpr std::uint32_t shown_processes() {
+  using enum databuffer::LockstepRole;
+  return bit_of(flight_model) | bit_of(input_monitor) | bit_of(radar_display);
+}
 
 class Hosts {
  public:
@@ -178,10 +173,7 @@ class Hosts {
     bool left = false;  // its gateway has ended in order
     bool other_layout = false;
     std::uint32_t differences = 0;  // HostFlags that have been reported
-    std::int64_t heard_ns = 0;
-    std::int64_t claims_since_ns = 0;  // it claims since then what it may not have
-    bool reported_claims = false;
-    std::int64_t next_probe_ns = 0;
+    std::int64_t began_ns = 0, heard_ns = 0, next_probe_ns = 0;
     OffsetEstimator offset;
     std::array<SampleNumbers, dds::kTopicCount> numbers;
     std::uint64_t refused = 0;
@@ -194,14 +186,13 @@ class Hosts {
     const auto found = std::ranges::find(hosts_, id, [](const Host& host) { return host.view.id; });
     return found == hosts_.end() ? nullptr : &*found;
   }
-  void report_claims(Host& host, std::int64_t now_ns);
   void lose(Host& host);
   void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);
   // A process that another one with its name seemed to have replaced is the one that goes on.
   static void readmit(Host& host, std::uint64_t start) {
     for (SampleNumbers& numbers : host.numbers) numbers.readmit(start);
   }
-  void report_differences(Host& host);
+  void report_differences(Host& host, std::int64_t now_ns);
   void report(Host& host, std::uint32_t flag, bool differs, const std::string& line);
   void hear_own_name(std::uint64_t start, std::int64_t now_ns);
   void announce(std::int64_t now_ns);

@@ -75,18 +75,17 @@ class LockstepExchange {
     return end == kNoEnd ? "without end" : "to tick " + std::to_string(end - 1);
   }
 
-  // Index in the NetworkStatus that this gateway publishes; 0: not there.
-  static std::uint32_t status_index(const databuffer::Session& session, const std::string& host) {
-    const auto status = databuffer::read_valid(session.layout().network_status);
+  // Index of a host in the NetworkStatus that this gateway publishes; 0: not there.
+  static std::uint32_t status_index(const Context& context, std::uint64_t host) {
+    const auto status = databuffer::read_valid(std::as_const(context.session).layout().network_status);
     for (std::uint32_t i = 1; status && i < status->host_count; ++i)
-      if (text::text_of(status->hosts[i].name) == host) return i;
+      if (host_id(text::text_of(status->hosts[i].name)) == host) return i;
     return 0;
   }
 
   // The host that did the last tick of a role.
   struct Performer {
     std::uint64_t host = 0;    // 0: this host, or not known
-    std::string name{};        // empty: not known
     std::int64_t gone_ns = 0;  // [ns] time without that host, as far as this process ran
   };
   // Another host of the run.
@@ -124,13 +123,12 @@ class LockstepExchange {
       Performer& performer = performers_[role];
       if (performer.host == 0) continue;
       const HostView* host = context.hosts.find(performer.host);
-      if (host != nullptr) performer.name = host->name;
       performer.gone_ns = host != nullptr || has_ended(context, role) ? 0 : performer.gone_ns + elapsed_ns;
       if (performer.gone_ns > (lost < performers_.size() ? performers_[lost].gone_ns : kGone_ns)) lost = role;
     }
     std::uint32_t word = 0;
     if (lost < performers_.size())
-      word = static_cast<std::uint32_t>(lost + 1) | status_index(context.session, performers_[lost].name) << 8;
+      word = static_cast<std::uint32_t>(lost + 1) | status_index(context, performers_[lost].host) << 8;
     context.session.layout().network.lost_role.store(word, std::memory_order_release);
   }
 

@@ -67,7 +67,6 @@ class MapExchange {
   }
 
  private:
-  using Role = databuffer::Role;
   struct Sent {
     std::uint64_t id = 0;
     std::uint32_t size = 0;

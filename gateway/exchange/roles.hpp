@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,11 +30,8 @@ class Roles {
   Roles(databuffer::Session& session, std::string session_name)
       : session_(&session),
         session_name_(std::move(session_name)),
-        states_{{{Role::radar_model, true},
-                 {Role::state_machine, true},
-                 {Role::traffic, false},
-                 {Role::recorder, false},
-                 {Role::tour, false}}} {
+        states_{
+            {{Role::radar_model, true}, {Role::state_machine, true}, {Role::traffic}, {Role::recorder}, {Role::tour}}} {
     session.layout().network.yielding_roles.store(0);
   }
   Roles(const Roles&) = delete;
@@ -47,10 +43,8 @@ class Roles {
 
   // This host may not hold the role, as its records may not leave it (topicsOut, permissions of DDS Security). A local
   // holder yields, and a standby waits. Otherwise the other hosts would wait for records that never come.
-  void bar(databuffer::Role role) {
-    const auto found = std::ranges::find(states_, role, &State::role);
-    assert(found != states_.end() && found->exclusive);
-    found->barred = true;
+  void bar(Role role) {
+    std::ranges::find(states_, role, &State::role)->barred = true;
     log::info("this host may not hold the role " + std::string(name_of(role)) + ": its topics may not leave it");
   }
 
@@ -66,26 +60,26 @@ class Roles {
   }
 
   // Host whose records of this role are to be published here: it has the role, and this gateway mirrors it.
-  std::optional<std::uint64_t> source(databuffer::Role role) const {
+  std::optional<std::uint64_t> source(Role role) const {
     const State& state = state_of(role);
     return state.claim ? state.holder : std::nullopt;
   }
 
   // True if a local process holds the role and no other host precedes: its records go to the other hosts.
-  bool exports(databuffer::Role role) const {
+  bool exports(Role role) const {
     const State& state = state_of(role);
-    if (!state.local || state.barred) return false;
-    return !state.exclusive || (session_->layout().network.yielding_roles.load() & bit_of(role)) == 0;
+    return state.holds() &&
+           (!state.exclusive || (session_->layout().network.yielding_roles.load() & bit_of(role)) == 0);
   }
 
   // Host with the role, this one included; nullopt: none.
-  std::optional<std::uint64_t> holder(databuffer::Role role) const { return state_of(role).holder; }
+  std::optional<std::uint64_t> holder(Role role) const { return state_of(role).holder; }
 
   // Bit n: a local process other than this gateway holds role n
   std::uint32_t held_roles() const {
     std::uint32_t bits = 0;
     for (const State& state : states_)
-      if (state.local && !state.barred) bits |= bit_of(state.role);
+      if (state.holds()) bits |= bit_of(state.role);
     return bits;
   }
 
@@ -98,13 +92,12 @@ class Roles {
   bool gives_way() const { return std::ranges::any_of(states_, &State::gives_way); }
 
  private:
-  using Role = databuffer::Role;
   static constexpr std::int64_t kLending_ns = 300'000'000;  // time for a local process to claim a role that it wants
 
   struct State {
-    databuffer::Role role;
+    Role role;
     // One host of the session holds it, and the process table shows it by name. Else each host may have a holder.
-    bool exclusive;
+    bool exclusive = false;
     std::optional<databuffer::Session> session = std::nullopt;
     std::optional<databuffer::Claim> claim = std::nullopt;
     bool local = false;   // a local process holds it
@@ -114,12 +107,13 @@ class Roles {
     std::int64_t lent_until_ns = 0;  // until then the role is left to a local process that wants it
     std::optional<std::uint64_t> holder = std::nullopt;
     Vacancy vacancy = {};
+    bool holds() const { return local && !barred; }
   };
 
   void update(State& state, const Hosts& hosts, std::int64_t now_ns) {
     // This host's announced claims may be one pass old; what counts here is the present.
     const auto holds = [&](const HostView& host) {
-      return host.id == hosts.self().id ? state.local && !state.barred : (host.held_roles & bit_of(state.role)) != 0;
+      return host.id == hosts.self().id ? state.holds() : (host.held_roles & bit_of(state.role)) != 0;
     };
     const HostView* holder = preceding(hosts.views(), holds);
     const bool is_self = holder != nullptr && holder->id == hosts.self().id;
@@ -132,7 +126,7 @@ class Roles {
                     holder->name);
     }
     state.conflict = conflict;
-    state.gives_way = conflict && !is_self && state.local && !state.barred;
+    state.gives_way = conflict && !is_self && state.holds();
     if (is_self && state.holder && *state.holder != hosts.self().id) ++takeovers_;
     if (holder != nullptr) state.holder = holder->id;
     const bool may_release = state.vacancy.may_take(holder == nullptr, rank_of(hosts.views(), hosts.self()), now_ns);
@@ -159,15 +153,13 @@ class Roles {
   }
 
   void mirror(State& state) {
-    auto& bits = session_->layout().network.mirrored_roles;
     if (!state.session) {
       auto session = databuffer::Session::open(session_name_, state.exclusive ? name_of(state.role) : "gateway");
       if (!session) return;
       state.session.emplace(std::move(*session));
     }
-    if (state.exclusive) set_bit(bits, state.role, true);
-    auto claim = state.session->claim(state.role);
-    if (claim) state.claim.emplace(std::move(*claim));
+    if (state.exclusive) set_bit(session_->layout().network.mirrored_roles, state.role, true);
+    if (auto claim = state.session->claim(state.role)) state.claim.emplace(std::move(*claim));
   }
 
   void release(State& state) {
@@ -186,11 +178,7 @@ class Roles {
       bits.fetch_and(~bit_of(role));
   }
 
-  const State& state_of(Role role) const {
-    const auto found = std::ranges::find(states_, role, &State::role);
-    assert(found != states_.end());
-    return *found;
-  }
+  const State& state_of(Role role) const { return *std::ranges::find(states_, role, &State::role); }
 
   databuffer::Session* session_;
   std::string session_name_;

@@ -44,7 +44,7 @@ template <class Sample, class Field, class Record>
 class State {
  public:
   // `field`: of the record in a sample. `least_ns`: least time between two samples.
-  State(databuffer::Role role, Field Sample::* field, shm::LatestValue<Record> databuffer::SessionLayout::* slot,
+  State(Role role, Field Sample::* field, shm::LatestValue<Record> databuffer::SessionLayout::* slot,
         std::int64_t least_ns = 0)
       : role_(role), field_(field), slot_(slot), least_ns_(least_ns) {}
 
@@ -75,7 +75,7 @@ class State {
   }
 
  private:
-  databuffer::Role role_;
+  Role role_;
   Field Sample::* field_;
   shm::LatestValue<Record> databuffer::SessionLayout::* slot_;
   std::int64_t least_ns_;
@@ -84,7 +84,7 @@ class State {
 };
 
 inline auto all_states() {
-  using databuffer::Role, databuffer::SessionLayout;
+  using databuffer::SessionLayout;
   constexpr std::int64_t kTick_ns = 20'000'000;  // of states that change in every tick: 50 Hz
   return std::tuple{
       State(Role::state_machine, &yars_net_RadarStateSample::state, &SessionLayout::radar_state),

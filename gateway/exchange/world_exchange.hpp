@@ -43,15 +43,13 @@ class WorldExchange {
   }
 
   void receive(Context& context, const yars_net_WorldSample& sample) {
-    if (!context.hosts.is_new(sample)) return;
-    if (context.valid<WorldState>(sample, sample.newest) &&
+    if (context.hosts.is_new(sample) && context.valid<WorldState>(sample, sample.newest) &&
         (sample.has_configured == 0 || context.valid<WorldState>(sample, sample.configured)))
       states_.keep(context.hosts, sample);
   }
 
   void receive(Context& context, const yars_net_LatchedWorldSample& sample) {
-    if (!context.hosts.is_new(sample)) return;
-    if (!context.valid<WorldState>(sample, sample.world)) return;
+    if (!context.hosts.is_new(sample) || !context.valid<WorldState>(sample, sample.world)) return;
     latched_.keep(context.hosts, sample);
     const auto* newest = latched_.newest(context.hosts, context.roles.source(Role::radar_model));
     if (newest != nullptr && newest->host == sample.host) write_latched(context, *newest);
@@ -116,7 +114,6 @@ class WorldExchange {
   }
 
  private:
-  using Role = databuffer::Role;
   using WorldAnswer = databuffer::WorldAnswer;
   using WorldState = databuffer::WorldState;
   // [ns] A page that drags a shower makes some tens of changes a second. A flood would occupy radar-model.
@@ -155,12 +152,9 @@ class WorldExchange {
     const bool is_written = sample.start == written_start_ && sample.number == written_number_;
     // What stands in the slot counts: a local process may have written there since.
     if (!is_written || layout.world.version() != written_version_) {
-      WorldState record{};
-      copy_record(record, sample.newest);
-      publish_changed(layout.world, record);
-      copy_record(record, sample.configured);
+      publish_changed(layout.world, std::bit_cast<WorldState>(sample.newest));
       if (sample.has_configured != 0)
-        publish_changed(layout.world_configured, record);
+        publish_changed(layout.world_configured, std::bit_cast<WorldState>(sample.configured));
       else if (layout.world_configured.has_value())
         layout.world_configured.clear();
     }
@@ -184,10 +178,9 @@ class WorldExchange {
     const std::uint64_t next = ring.next();
     if (!numbers_->continues(sample.host, sample.segment, next)) resume_latched(context, sample);
     if (numbers_->has(sample.host, sample.segment, sample.ring_number, next)) return;
-    WorldState world{};
-    copy_record(world, sample.world);
     store_progress(progress, source_id({sample.host, sample.segment}), progress_of(sample.ring_number + 1, next));
-    numbers_->add(sample.host, sample.segment, sample.ring_number, ring.publish(world));
+    numbers_->add(sample.host, sample.segment, sample.ring_number,
+                  ring.publish(std::bit_cast<WorldState>(sample.world)));
   }
 
   // Where this gateway goes on: after what an earlier one has written here, or after an equal record, which the new
@@ -202,10 +195,9 @@ class WorldExchange {
       const std::uint64_t theirs = next_of(progress.progress.load(), next, sample.ring_number);
       if (theirs > 0) return numbers_->add(sample.host, sample.segment, theirs - 1, next - 1);
     }
-    WorldState world{}, last{};
-    copy_record(world, sample.world);
+    WorldState last{};
     std::uint64_t cursor = next - 1;
-    if (layout.world_latched.read(cursor, last).delivered && equal(last, world))
+    if (layout.world_latched.read(cursor, last).delivered && equal(last, std::bit_cast<WorldState>(sample.world)))
       numbers_->add(sample.host, sample.segment, sample.ring_number, next - 1);
   }
 

@@ -1,18 +1,27 @@
-#include "gateway/checks/identity_check.hpp"
+#include "gateway/checks/network_check.hpp"
 
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netdb.h>
+#include <netinet/in.h>
 #include <openssl/bio.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
 #include <openssl/pkcs7.h>
 #include <openssl/x509.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "lib/file/text_file.hpp"
@@ -24,7 +33,100 @@ namespace {
 
 using error::Expected;
 
+using Address = std::uint32_t;  // IPv4, in the order of the host
+
+struct Interface {
+  std::string name;
+  bool is_up = false;
+  std::optional<Address> address, broadcast;
+};
+
+Address address_in(const sockaddr* socket) {
+  return ntohl(reinterpret_cast<const sockaddr_in*>(socket)->sin_addr.s_addr);
+}
+
+std::string text_of(Address address) {
+  const in_addr number{htonl(address)};
+  std::array<char, INET_ADDRSTRLEN> text{};
+  inet_ntop(AF_INET, &number, text.data(), text.size());
+  return text.data();
+}
+
+// The last address of a network of four addresses or more. The system's own is 0 or the host's address where none is
+// set.
+std::optional<Address> broadcast_of(Address address, Address netmask) {
+  return ~netmask >= 3 ? std::optional(address | ~netmask) : std::nullopt;
+}
+
+// An interface has an entry for each of its addresses, of any kind. Those with an IPv4 address come first.
+std::vector<Interface> interfaces_here() {
+  ifaddrs* first = nullptr;
+  if (getifaddrs(&first) != 0) return {};
+  const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(first, freeifaddrs);
+  std::vector<Interface> here;
+  for (const ifaddrs* entry = first; entry != nullptr; entry = entry->ifa_next) {
+    Interface& found = here.emplace_back(Interface{entry->ifa_name, (entry->ifa_flags & IFF_UP) != 0, {}, {}});
+    if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
+    found.address = address_in(entry->ifa_addr);
+    if ((entry->ifa_flags & IFF_BROADCAST) != 0 && entry->ifa_netmask != nullptr)
+      found.broadcast = broadcast_of(*found.address, address_in(entry->ifa_netmask));
+  }
+  std::ranges::stable_partition(here, [](const Interface& one) { return one.address.has_value(); });
+  return here;
+}
+
+// "eth0 (192.168.10.1), lo (127.0.0.1)": those that a gateway can use.
+std::string list_of(const std::vector<Interface>& interfaces) {
+  std::string list;
+  for (const Interface& one : interfaces)
+    if (one.is_up && one.address) list += (list.empty() ? "" : ", ") + one.name + " (" + text_of(*one.address) + ')';
+  return list.empty() ? "none" : list;
+}
+
+error::Expected<void> check_interface(const std::string& name, const std::vector<Interface>& here) {
+  const auto found = std::ranges::find(here, name, &Interface::name);
+  if (found != here.end() && found->is_up && found->address) return {};
+  std::string what = '"' + name + '"';
+  if (found != here.end())
+    what += !found->is_up ? ", which is down (ip link set " + name + " up)" : ", which has no IPv4 address";
+  const auto addressed = std::ranges::find_if(
+      here, [&name](const Interface& one) { return one.address && text_of(*one.address) == name; });
+  return error::fail("Network: interfaces", "names of interfaces of this computer, which are " + list_of(here), what,
+                     addressed != here.end() ? "did you mean \"" + addressed->name + "\"?" : "name one of them");
+}
+
+// IPv4 address of a peer, which is an address, or a name, or one of them with `:PORT`; nullopt: the name has none.
+std::optional<Address> address_of(const std::string& peer) {
+  const std::string host = peer.substr(0, peer.find(':'));
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) return std::nullopt;
+  const Address address = address_in(found->ai_addr);
+  freeaddrinfo(found);
+  return address;
+}
+
+bool is_loopback(Address address) {
+  return address >> 24U == 127;
+}
+
+void add_warnings(ComputerCheck& check, const radar::NetworkSettings& settings) {
+  const bool reaches_others = std::ranges::any_of(settings.interfaces, [](const auto& name) { return name != "lo"; });
+  if (!reaches_others && !check.other_peers.empty())
+    check.warnings.emplace_back(
+        "Network: interfaces: expected an interface that reaches the peers, found `lo` alone; name one that `ip link` "
+        "lists");
+  if (reaches_others && check.other_peers.empty() && check.known_peers.size() == settings.peers.size())
+    check.warnings.emplace_back(
+        "Network: peers: expected the addresses of the other computers, found none; this computer asks nobody, and "
+        "joins those alone that name it: list them in `peers`");
+}
+
+// ---- Identity
 constexpr std::size_t kMaxFile_bytes = std::size_t{1} << 20;
+constexpr const char* kCopyAll = "copy all files of the host's folder from one run of scripts/network_identities";
 
 template <auto release>
 struct Release {
@@ -79,25 +181,21 @@ Expected<std::string> text_of_file(const std::filesystem::path& path) {
   return std::move(*text);
 }
 
-Expected<Certificate> certificate_in(const std::filesystem::path& path) {
-  const auto text = text_of_file(path);
-  if (!text) return tl::unexpected(text.error());
-  Certificate certificate(PEM_read_bio_X509(bio_of(*text).get(), nullptr, nullptr, nullptr));
-  if (!certificate)
-    return fault("a certificate in the form PEM in " + path.string(), openssl_reason(), "copy the host's folder again");
-  return certificate;
-}
-
-// A key with a password is refused: nobody is asked for it.
-Expected<Key> key_in(const std::filesystem::path& path) {
+// The object that a file in the form PEM has, as read(bio, nullptr, password, nullptr) of OpenSSL makes it. One with a
+// password is refused: nobody is asked for it.
+template <class Object, class Read>
+Expected<Object> pem_in(const std::filesystem::path& path, const std::string& what, const Read& read) {
   const auto text = text_of_file(path);
   if (!text) return tl::unexpected(text.error());
   const auto no_password = [](char*, int, int, void*) { return -1; };
-  Key key(PEM_read_bio_PrivateKey(bio_of(*text).get(), nullptr, no_password, nullptr));
-  if (!key)
-    return fault("a private key without password in the form PEM in " + path.string(), openssl_reason(),
-                 "copy the host's folder again");
-  return key;
+  Object object(read(bio_of(*text).get(), nullptr, no_password, nullptr));
+  if (!object)
+    return fault(what + " in the form PEM in " + path.string(), openssl_reason(), "copy the host's folder again");
+  return object;
+}
+
+Expected<Certificate> certificate_in(const std::filesystem::path& path) {
+  return pem_in<Certificate>(path, "a certificate", PEM_read_bio_X509);
 }
 
 std::string subject_of(const X509* certificate) {
@@ -119,21 +217,19 @@ Store store_with(X509* authority) {
 }
 
 Expected<void> check_certificate(const std::filesystem::path& path, X509* certificate, X509* authority) {
-  if (X509_cmp_current_time(X509_get0_notAfter(certificate)) < 0)
+  const bool has_ended = X509_cmp_current_time(X509_get0_notAfter(certificate)) < 0;
+  if (has_ended || X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0)
     return fault("a certificate that is valid now in " + path.string(),
-                 "one until " + time_text(X509_get0_notAfter(certificate)),
+                 has_ended ? "one until " + time_text(X509_get0_notAfter(certificate))
+                           : "one from " + time_text(X509_get0_notBefore(certificate)) + " on",
                  "check this computer's date, or make the identities again");
-  if (X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0)
-    return fault("a certificate that is valid now in " + path.string(),
-                 "one from " + time_text(X509_get0_notBefore(certificate)) + " on", "check this computer's date");
   const Store store = store_with(authority);
   const StoreContext context(X509_STORE_CTX_new());
   X509_STORE_CTX_init(context.get(), store.get(), certificate, nullptr);
   if (X509_verify_cert(context.get()) == 1) return {};
   ERR_clear_error();
   return fault("a certificate that identity_ca.pem beside it has signed in " + path.string(),
-               X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get())),
-               "copy all files of the host's folder from one run of scripts/network_identities");
+               X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get())), kCopyAll);
 }
 
 // The text of a signed document (S/MIME).
@@ -143,13 +239,12 @@ Expected<std::string> signed_text(const std::filesystem::path& path, X509* autho
   BIO* content = nullptr;
   const SignedDocument document(SMIME_read_PKCS7(bio_of(*text).get(), &content));
   const Bio owned(content);
-  constexpr const char* kAction = "copy all files of the host's folder from one run of scripts/network_identities";
-  if (!document) return fault("a signed document (S/MIME) in " + path.string(), openssl_reason(), kAction);
+  if (!document) return fault("a signed document (S/MIME) in " + path.string(), openssl_reason(), kCopyAll);
   const Bio out(BIO_new(BIO_s_mem()));
   const Store store = store_with(authority);
   if (PKCS7_verify(document.get(), nullptr, store.get(), content, out.get(), 0) != 1)
     return fault("a document that permissions_ca.pem beside it has signed in " + path.string(), openssl_reason(),
-                 kAction);
+                 kCopyAll);
   return text_in(out);
 }
 
@@ -179,14 +274,14 @@ Expected<void> check_permissions(const std::filesystem::path& path, const X509* 
   const auto document = signed_text(path, authority);
   if (!document) return tl::unexpected(document.error());
   const std::string subject = subject_of(certificate);
-  const auto granted = granted_subjects(*document);
-  if (std::ranges::any_of(granted, [&](const auto& name) { return parts_of(name) == parts_of(subject); })) return {};
-  constexpr std::size_t kShown = 8, kShownLength = 64;
   std::string found;
-  for (std::size_t i = 0; i < std::min(granted.size(), kShown); ++i)
-    found += (i == 0 ? "" : "; ") + granted[i].substr(0, kShownLength);
+  for (const std::string& granted : granted_subjects(*document)) {
+    if (parts_of(granted) == parts_of(subject)) return {};
+    found += (found.empty() ? "those of " : "; ") + granted;
+  }
   return fault("permissions of " + subject + ", which certificate.pem is of, in " + path.string(),
-               found.empty() ? "those of nobody" : "those of " + found, "copy this host's own folder, and all of it");
+               found.empty() ? "those of nobody" : text::shortened(found),
+               "copy this host's own folder, and all of it");
 }
 
 // A line if others than the owner can read or write the key.
@@ -200,6 +295,37 @@ std::vector<std::string> warnings_of_key(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::string host_name() {
+  std::array<char, 64> name{};
+  gethostname(name.data(), name.size() - 1);
+  std::string text(name.data());
+  return text.substr(0, std::min(text.find('.'), radar::kMaxHostName));
+}
+
+Expected<ComputerCheck> check_computer(const radar::NetworkSettings& settings) {
+  const std::vector<Interface> here = interfaces_here();
+  for (const std::string& name : settings.interfaces)
+    if (auto checked = check_interface(name, here); !checked) return tl::unexpected(checked.error());
+  ComputerCheck check;
+  for (const std::string& peer : settings.peers) {
+    const auto address = address_of(peer);
+    if (!address) {
+      check.warnings.push_back("Network: peers: expected names that have an IPv4 address, found \"" + peer +
+                               "\", which has none here; it is not asked: correct it, or write its address, and start "
+                               "the gateway again");
+      continue;
+    }
+    if (std::ranges::find(here, address, &Interface::broadcast) != here.end())
+      return error::fail("Network: peers", "the address of each computer", peer + ", a broadcast address",
+                         "list the computers one by one");
+    check.known_peers.push_back(peer);
+    if (!is_loopback(*address) && std::ranges::find(here, address, &Interface::address) == here.end())
+      check.other_peers.push_back(peer);
+  }
+  add_warnings(check, settings);
+  return check;
+}
 
 Expected<std::vector<std::string>> check_identity(const std::string& folder, const std::string& name) {
   const std::filesystem::path path(folder);
@@ -216,7 +342,7 @@ Expected<std::vector<std::string>> check_identity(const std::string& folder, con
   if (!name.empty() && subject != "CN=" + name)
     return fault("the certificate of host " + name + ", CN=" + name + ", in " + (path / "certificate.pem").string(),
                  subject, "give the form Network the `name` of the certificate, or copy this host's own folder");
-  const auto key = key_in(path / "key.pem");
+  const auto key = pem_in<Key>(path / "key.pem", "a private key without password", PEM_read_bio_PrivateKey);
   if (!key) return tl::unexpected(key.error());
   if (auto checked = check_certificate(path / "certificate.pem", certificate->get(), authority->get()); !checked)
     return tl::unexpected(checked.error());
