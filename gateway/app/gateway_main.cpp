@@ -2,35 +2,22 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <numeric>
 #include <random>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
-#include "databuffer/session/session.hpp"
 #include "gateway/checks/network_check.hpp"
 #include "gateway/dds/domain_configuration.hpp"
-#include "gateway/dds/link.hpp"
-#include "gateway/dds/participants.hpp"
 #include "gateway/exchange/clock_exchange.hpp"
-#include "gateway/exchange/context.hpp"
 #include "gateway/exchange/event_exchange.hpp"
 #include "gateway/exchange/history_exchange.hpp"
-#include "gateway/exchange/hosts.hpp"
 #include "gateway/exchange/lockstep_exchange.hpp"
 #include "gateway/exchange/map_exchange.hpp"
-#include "gateway/exchange/roles.hpp"
 #include "gateway/exchange/state_exchange.hpp"
 #include "gateway/exchange/world_exchange.hpp"
-#include "gateway/pace.hpp"
-#include "lib/log/log.hpp"
 #include "runtime/process.hpp"
 #include "runtime/processor_load.hpp"
 #include "runtime/program.hpp"
@@ -39,6 +26,7 @@ namespace {
 
 using namespace yars;
 using namespace yars::gateway;
+
 constexpr std::int64_t kPass_ns = 5'000'000;        // a tick at rate 1
 constexpr std::int64_t kLockstepPass_ns = 250'000;  // the roles of a lockstep run wait for each pass
 constexpr std::int64_t kMaxEnd_ns = 1'000'000'000;

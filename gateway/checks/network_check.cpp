@@ -22,6 +22,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "lib/file/text_file.hpp"
@@ -52,12 +53,6 @@ std::string text_of(Address address) {
   return text.data();
 }
 
-// The last address of a network of four addresses or more. The system's own is 0 or the host's address where none is
-// set.
-std::optional<Address> broadcast_of(Address address, Address netmask) {
-  return ~netmask >= 3 ? std::optional(address | ~netmask) : std::nullopt;
-}
-
 // An interface has an entry for each of its addresses, of any kind. Those with an IPv4 address come first.
 std::vector<Interface> interfaces_here() {
   ifaddrs* first = nullptr;
@@ -68,8 +63,11 @@ std::vector<Interface> interfaces_here() {
     Interface& found = here.emplace_back(Interface{entry->ifa_name, (entry->ifa_flags & IFF_UP) != 0, {}, {}});
     if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
     found.address = address_in(entry->ifa_addr);
-    if ((entry->ifa_flags & IFF_BROADCAST) != 0 && entry->ifa_netmask != nullptr)
-      found.broadcast = broadcast_of(*found.address, address_in(entry->ifa_netmask));
+    if ((entry->ifa_flags & IFF_BROADCAST) == 0 || entry->ifa_netmask == nullptr) continue;
+    // The last address of a network of four addresses or more. The system's own is 0 or the host's address where none
+    // is set.
+    const Address last_host = ~address_in(entry->ifa_netmask);
+    if (last_host >= 3) found.broadcast = *found.address | last_host;
   }
   std::ranges::stable_partition(here, [](const Interface& one) { return one.address.has_value(); });
   return here;
@@ -83,7 +81,7 @@ std::string list_of(const std::vector<Interface>& interfaces) {
   return list.empty() ? "none" : list;
 }
 
-error::Expected<void> check_interface(const std::string& name, const std::vector<Interface>& here) {
+Expected<void> check_interface(const std::string& name, const std::vector<Interface>& here) {
   const auto found = std::ranges::find(here, name, &Interface::name);
   if (found != here.end() && found->is_up && found->address) return {};
   std::string what = '"' + name + '"';
@@ -108,10 +106,6 @@ std::optional<Address> address_of(const std::string& peer) {
   return address;
 }
 
-bool is_loopback(Address address) {
-  return address >> 24U == 127;
-}
-
 void add_warnings(ComputerCheck& check, const radar::NetworkSettings& settings) {
   const bool reaches_others = std::ranges::any_of(settings.interfaces, [](const auto& name) { return name != "lo"; });
   if (!reaches_others && !check.other_peers.empty())
@@ -129,12 +123,7 @@ constexpr std::size_t kMaxFile_bytes = std::size_t{1} << 20;
 constexpr const char* kCopyAll = "copy all files of the host's folder from one run of scripts/network_identities";
 
 template <auto release>
-struct Release {
-  template <class Object>
-  void operator()(Object* object) const {
-    release(object);
-  }
-};
+using Release = decltype([](auto* object) { release(object); });
 using Bio = std::unique_ptr<BIO, Release<BIO_free_all>>;
 using Certificate = std::unique_ptr<X509, Release<X509_free>>;
 using Key = std::unique_ptr<EVP_PKEY, Release<EVP_PKEY_free>>;
@@ -161,40 +150,38 @@ std::string openssl_reason() {
   return reason == nullptr ? "something else" : reason;
 }
 
-tl::unexpected<error::Error> fault(const std::string& expected, const std::string& found, const std::string& action) {
-  return error::fail("Network: security", expected, found, action);
+// check_identity() returns what is thrown here.
+[[noreturn]] void refuse(const std::string& expected, const std::string& found, const std::string& action) {
+  throw error::Error{"Network: security", expected, found, action};
 }
 
-Expected<std::string> text_of_file(const std::filesystem::path& path) {
+std::string text_of_file(const std::filesystem::path& path) {
   constexpr const char* kMake = "scripts/network_identities makes the folder of a host";
   struct stat status{};
-  if (::stat(path.c_str(), &status) != 0) return fault("the file " + path.string(), error::reason_of(errno), kMake);
+  if (::stat(path.c_str(), &status) != 0) refuse("the file " + path.string(), error::reason_of(errno), kMake);
   if (!S_ISREG(status.st_mode))
-    return fault("a regular file " + path.string(),
-                 S_ISDIR(status.st_mode) ? "a folder" : "a pipe, a socket or a device", kMake);
+    refuse("a regular file " + path.string(), S_ISDIR(status.st_mode) ? "a folder" : "a pipe, a socket or a device",
+           kMake);
   auto text = file::read_regular_file(path, kMaxFile_bytes + 1);
-  if (!text)
-    return fault("a file that can be read", path.string() + ": " + error::reason_of(errno), "check its permissions");
+  if (!text) refuse("a file that can be read", path.string() + ": " + error::reason_of(errno), "check its permissions");
   if (text->empty() || text->size() > kMaxFile_bytes)
-    return fault("1 to " + std::to_string(kMaxFile_bytes) + " bytes in " + path.string(),
-                 text->empty() ? "none" : "more", kMake);
+    refuse("1 to " + std::to_string(kMaxFile_bytes) + " bytes in " + path.string(), text->empty() ? "none" : "more",
+           kMake);
   return std::move(*text);
 }
 
 // The object that a file in the form PEM has, as read(bio, nullptr, password, nullptr) of OpenSSL makes it. One with a
 // password is refused: nobody is asked for it.
 template <class Object, class Read>
-Expected<Object> pem_in(const std::filesystem::path& path, const std::string& what, const Read& read) {
-  const auto text = text_of_file(path);
-  if (!text) return tl::unexpected(text.error());
+Object pem_in(const std::filesystem::path& path, const std::string& what, const Read& read) {
+  const std::string text = text_of_file(path);
   const auto no_password = [](char*, int, int, void*) { return -1; };
-  Object object(read(bio_of(*text).get(), nullptr, no_password, nullptr));
-  if (!object)
-    return fault(what + " in the form PEM in " + path.string(), openssl_reason(), "copy the host's folder again");
+  Object object(read(bio_of(text).get(), nullptr, no_password, nullptr));
+  if (!object) refuse(what + " in the form PEM in " + path.string(), openssl_reason(), "copy the host's folder again");
   return object;
 }
 
-Expected<Certificate> certificate_in(const std::filesystem::path& path) {
+Certificate certificate_in(const std::filesystem::path& path) {
   return pem_in<Certificate>(path, "a certificate", PEM_read_bio_X509);
 }
 
@@ -216,45 +203,40 @@ Store store_with(X509* authority) {
   return store;
 }
 
-Expected<void> check_certificate(const std::filesystem::path& path, X509* certificate, X509* authority) {
+void check_certificate(const std::filesystem::path& path, X509* certificate, X509* authority) {
   const bool has_ended = X509_cmp_current_time(X509_get0_notAfter(certificate)) < 0;
   if (has_ended || X509_cmp_current_time(X509_get0_notBefore(certificate)) > 0)
-    return fault("a certificate that is valid now in " + path.string(),
-                 has_ended ? "one until " + time_text(X509_get0_notAfter(certificate))
-                           : "one from " + time_text(X509_get0_notBefore(certificate)) + " on",
-                 "check this computer's date, or make the identities again");
+    refuse("a certificate that is valid now in " + path.string(),
+           has_ended ? "one until " + time_text(X509_get0_notAfter(certificate))
+                     : "one from " + time_text(X509_get0_notBefore(certificate)) + " on",
+           "check this computer's date, or make the identities again");
   const Store store = store_with(authority);
   const StoreContext context(X509_STORE_CTX_new());
   X509_STORE_CTX_init(context.get(), store.get(), certificate, nullptr);
-  if (X509_verify_cert(context.get()) == 1) return {};
+  if (X509_verify_cert(context.get()) == 1) return;
   ERR_clear_error();
-  return fault("a certificate that identity_ca.pem beside it has signed in " + path.string(),
-               X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get())), kCopyAll);
+  refuse("a certificate that identity_ca.pem beside it has signed in " + path.string(),
+         X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get())), kCopyAll);
 }
 
 // The text of a signed document (S/MIME).
-Expected<std::string> signed_text(const std::filesystem::path& path, X509* authority) {
-  const auto text = text_of_file(path);
-  if (!text) return tl::unexpected(text.error());
+std::string signed_text(const std::filesystem::path& path, X509* authority) {
+  const std::string text = text_of_file(path);
   BIO* content = nullptr;
-  const SignedDocument document(SMIME_read_PKCS7(bio_of(*text).get(), &content));
+  const SignedDocument document(SMIME_read_PKCS7(bio_of(text).get(), &content));
   const Bio owned(content);
-  if (!document) return fault("a signed document (S/MIME) in " + path.string(), openssl_reason(), kCopyAll);
+  if (!document) refuse("a signed document (S/MIME) in " + path.string(), openssl_reason(), kCopyAll);
   const Bio out(BIO_new(BIO_s_mem()));
   const Store store = store_with(authority);
   if (PKCS7_verify(document.get(), nullptr, store.get(), content, out.get(), 0) != 1)
-    return fault("a document that permissions_ca.pem beside it has signed in " + path.string(), openssl_reason(),
-                 kCopyAll);
+    refuse("a document that permissions_ca.pem beside it has signed in " + path.string(), openssl_reason(), kCopyAll);
   return text_in(out);
 }
 
-// The parts of a subject, such as CN=a, in a fixed order: documents write them in either order.
-std::vector<std::string> parts_of(std::string_view subject) {
-  std::vector<std::string> parts;
-  for (const std::string_view part : text::fields_of(subject, ','))
-    if (!part.empty()) parts.emplace_back(part);
-  std::ranges::sort(parts);
-  return parts;
+// The parts of a subject, such as CN=a. Documents write them in either order.
+std::set<std::string_view> parts_of(std::string_view subject) {
+  const auto parts = text::fields_of(subject, ',');
+  return {parts.begin(), parts.end()};
 }
 
 // Subjects of the grants in a document of permissions.
@@ -270,18 +252,14 @@ std::vector<std::string> granted_subjects(std::string_view document) {
   return subjects;
 }
 
-Expected<void> check_permissions(const std::filesystem::path& path, const X509* certificate, X509* authority) {
-  const auto document = signed_text(path, authority);
-  if (!document) return tl::unexpected(document.error());
-  const std::string subject = subject_of(certificate);
+void check_permissions(const std::filesystem::path& path, const std::string& subject, X509* authority) {
   std::string found;
-  for (const std::string& granted : granted_subjects(*document)) {
-    if (parts_of(granted) == parts_of(subject)) return {};
+  for (const std::string& granted : granted_subjects(signed_text(path, authority))) {
+    if (parts_of(granted) == parts_of(subject)) return;
     found += (found.empty() ? "those of " : "; ") + granted;
   }
-  return fault("permissions of " + subject + ", which certificate.pem is of, in " + path.string(),
-               found.empty() ? "those of nobody" : text::shortened(found),
-               "copy this host's own folder, and all of it");
+  refuse("permissions of " + subject + ", which certificate.pem is of, in " + path.string(),
+         found.empty() ? "those of nobody" : text::shortened(found), "copy this host's own folder, and all of it");
 }
 
 // A line if others than the owner can read or write the key.
@@ -320,45 +298,39 @@ Expected<ComputerCheck> check_computer(const radar::NetworkSettings& settings) {
       return error::fail("Network: peers", "the address of each computer", peer + ", a broadcast address",
                          "list the computers one by one");
     check.known_peers.push_back(peer);
-    if (!is_loopback(*address) && std::ranges::find(here, address, &Interface::address) == here.end())
+    if (*address >> 24U != 127 && std::ranges::find(here, address, &Interface::address) == here.end())
       check.other_peers.push_back(peer);
   }
   add_warnings(check, settings);
   return check;
 }
 
-Expected<std::vector<std::string>> check_identity(const std::string& folder, const std::string& name) {
+Expected<std::vector<std::string>> check_identity(const std::string& folder, const std::string& name) try {
   const std::filesystem::path path(folder);
   struct stat status{};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists || !S_ISDIR(status.st_mode))
-    return fault("a folder with the identity of this host", exists ? folder + ", a file" : "none at " + folder,
-                 "scripts/network_identities makes one for each host");
-  const auto authority = certificate_in(path / "identity_ca.pem");
-  if (!authority) return tl::unexpected(authority.error());
-  const auto certificate = certificate_in(path / "certificate.pem");
-  if (!certificate) return tl::unexpected(certificate.error());
-  const std::string subject = subject_of(certificate->get());
+    refuse("a folder with the identity of this host", exists ? folder + ", a file" : "none at " + folder,
+           "scripts/network_identities makes one for each host");
+  const Certificate authority = certificate_in(path / "identity_ca.pem");
+  const Certificate certificate = certificate_in(path / "certificate.pem");
+  const std::string subject = subject_of(certificate.get());
   if (!name.empty() && subject != "CN=" + name)
-    return fault("the certificate of host " + name + ", CN=" + name + ", in " + (path / "certificate.pem").string(),
-                 subject, "give the form Network the `name` of the certificate, or copy this host's own folder");
-  const auto key = pem_in<Key>(path / "key.pem", "a private key without password", PEM_read_bio_PrivateKey);
-  if (!key) return tl::unexpected(key.error());
-  if (auto checked = check_certificate(path / "certificate.pem", certificate->get(), authority->get()); !checked)
-    return tl::unexpected(checked.error());
-  if (X509_check_private_key(certificate->get(), key->get()) != 1) {
+    refuse("the certificate of host " + name + ", CN=" + name + ", in " + (path / "certificate.pem").string(), subject,
+           "give the form Network the `name` of the certificate, or copy this host's own folder");
+  const Key key = pem_in<Key>(path / "key.pem", "a private key without password", PEM_read_bio_PrivateKey);
+  check_certificate(path / "certificate.pem", certificate.get(), authority.get());
+  if (X509_check_private_key(certificate.get(), key.get()) != 1) {
     ERR_clear_error();
-    return fault("the key of certificate.pem (" + subject + ") in " + (path / "key.pem").string(), "another key",
-                 "copy this host's own folder, and all of it");
+    refuse("the key of certificate.pem (" + subject + ") in " + (path / "key.pem").string(), "another key",
+           "copy this host's own folder, and all of it");
   }
-  const auto permissions_authority = certificate_in(path / "permissions_ca.pem");
-  if (!permissions_authority) return tl::unexpected(permissions_authority.error());
-  if (auto governance = signed_text(path / "governance.p7s", permissions_authority->get()); !governance)
-    return tl::unexpected(governance.error());
-  if (auto checked = check_permissions(path / "permissions.p7s", certificate->get(), permissions_authority->get());
-      !checked)
-    return tl::unexpected(checked.error());
+  const Certificate permissions_authority = certificate_in(path / "permissions_ca.pem");
+  signed_text(path / "governance.p7s", permissions_authority.get());
+  check_permissions(path / "permissions.p7s", subject, permissions_authority.get());
   return warnings_of_key(path / "key.pem");
+} catch (const error::Error& fault) {
+  return tl::unexpected(fault);
 }
 
 }  // namespace yars::gateway::checks

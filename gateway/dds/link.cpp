@@ -1,20 +1,13 @@
 #include "gateway/dds/link.hpp"
 
-#include <dds/dds.h>
 #include <netinet/in.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
-#include <deque>
 #include <mutex>
-#include <utility>
 
 #include "gateway/dds/domain_configuration.hpp"
-#include "gateway/dds/instance_quota.hpp"
-#include "gateway/dds/participants.hpp"
-#include "gateway/dds/senders.hpp"
 #include "gateway/message_limit.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -22,10 +15,6 @@ namespace yars::gateway::dds {
 
 namespace {
 
-constexpr std::uint32_t kMaxLanes = 16;  // ownship lanes with writers of their own
-// Samples, or ends of instances, that one call of take() passes on: 30 ms. Without a limit the end of a writer of
-// 70,000 instances kept a gateway from its announcements for longer than the lease of 0.5 s.
-constexpr int kMaxTaken = 4096;
 constexpr std::uint64_t kMaxStrays = 8192;  // ends of instances that never had a sample: 16 MB
 
 // Messages of Cyclone DDS, which arrive on its own threads. One object for the process, as Cyclone has one sink.
@@ -121,141 +110,100 @@ tl::unexpected<error::Error> fail_link(const radar::NetworkSettings& settings, c
 
 }  // namespace
 
-// A topic, with the entities that Cyclone DDS has for it.
-struct TopicState {
-  explicit TopicState(Topic topic)
-      : quota(settings_of(topic).instances,
-              topic == Topic::patch_rows ? 65536 : settings_of(topic).instances * databuffer::kMaxHosts) {
-    text::put_text(counts.name, settings_of(topic).name);
-  }
-  dds_entity_t topic = 0, reader = 0, writer = 0;
-  databuffer::TopicStatus counts{};
-  std::uint64_t posed = 0;        // samples that named another host than their writer's
-  InstanceQuota quota;            // of the reader
-  std::uint64_t next_report = 1;  // number of refused samples that is worth a message
-};
-
-// Filter of a topic. It is asked for each sample that arrives, on threads of Cyclone DDS.
-bool admits(const dds_sample_info_t* info, void* topic) {
-  return static_cast<TopicState*>(topic)->quota.admits(info->instance_handle, info->publication_handle);
+Link::TopicState::TopicState(Topic topic)
+    : quota(settings_of(topic).instances,
+            topic == Topic::patch_rows ? 65536 : settings_of(topic).instances * databuffer::kMaxHosts) {
+  text::put_text(counts.name, settings_of(topic).name);
 }
 
-struct Link::State {
-  State() {
-    for (std::size_t i = 0; i < kTopicCount; ++i) topics.emplace_back(static_cast<Topic>(i));
+Link::State::State(const radar::NetworkSettings& network_settings) : settings(network_settings) {
+  for (std::size_t i = 0; i < kTopicCount; ++i) topics.emplace_back(static_cast<Topic>(i));
+}
+
+Link::State::~State() {
+  if (domain > 0) dds_delete(domain);
+  dds_set_log_sink(nullptr, nullptr);
+}
+
+error::Expected<void> Link::State::open_topics(const std::string& session) {
+  const char* partition = session.c_str();
+  const Qos qos(dds_create_qos());
+  dds_qset_partition(qos.get(), 1, &partition);
+  dds_qset_groupdata(qos.get(), settings.name.data(), settings.name.size());
+  publisher = dds_create_publisher(participant, qos.get(), nullptr);
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  subscriber = dds_create_subscriber(participant, qos.get(), nullptr);
+  waitset = dds_create_waitset(participant);
+  for (std::size_t i = 0; i < kTopicCount; ++i) {
+    const auto topic = static_cast<Topic>(i);
+    TopicState& state = topics[i];
+    const std::string name = "yars/" + std::string(settings_of(topic).name);
+    state.topic = dds_create_topic(participant, settings_of(topic).structure, name.c_str(), nullptr, nullptr);
+    if (state.topic < 0) return fail_link(settings, "topic " + name, state.topic);
+    const dds_topic_filter filter{DDS_TOPIC_FILTER_SAMPLEINFO_ARG, {.sampleinfo_arg = &Link::admits}, &state};
+    dds_set_topic_filter_extended(state.topic, &filter);
+    if (is_listed(settings.topics_out, topic) && topic != Topic::ownship)
+      state.writer = dds_create_writer(publisher, state.topic, qos_of(topic).get(), nullptr);
+    if (is_listed(settings.topics_in, topic)) state.reader = open_reader(topic);
+    for (const dds_entity_t entity : {state.writer, state.reader})
+      if (entity < 0 && entity != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+        return fail_link(settings, "a writer and a reader of topic " + name, entity);
   }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() {
-    if (domain > 0) dds_delete(domain);
-    dds_set_log_sink(nullptr, nullptr);
+  return {};
+}
+
+dds_entity_t Link::State::open_reader(Topic topic) {
+  const Qos qos = qos_of(topic);
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  // Who poses as a host writes to its instance. With one sample for both, a loaded gateway would lose that host.
+  constexpr int kAnnouncements = 64;
+  if (topic == Topic::hosts) dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kAnnouncements);
+  const dds_entity_t reader = dds_create_reader(subscriber, at(topic).topic, qos.get(), nullptr);
+  const bool is_awaited = topic == Topic::probes || topic == Topic::input_events;
+  if (reader > 0 && is_awaited) {
+    const dds_entity_t condition = dds_create_readcondition(reader, DDS_NOT_READ_SAMPLE_STATE);
+    dds_waitset_attach(waitset, condition, condition);
   }
+  return reader;
+}
 
-  error::Expected<void> open_topics(const std::string& session) {
-    const char* partition = session.c_str();
-    const Qos qos(dds_create_qos());
-    dds_qset_partition(qos.get(), 1, &partition);
-    dds_qset_groupdata(qos.get(), settings.name.data(), settings.name.size());
-    publisher = dds_create_publisher(participant, qos.get(), nullptr);
-    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-    subscriber = dds_create_subscriber(participant, qos.get(), nullptr);
-    waitset = dds_create_waitset(participant);
-    for (std::size_t i = 0; i < kTopicCount; ++i) {
-      const auto topic = static_cast<Topic>(i);
-      TopicState& state = topics[i];
-      const std::string name = "yars/" + std::string(settings_of(topic).name);
-      state.topic = dds_create_topic(participant, settings_of(topic).structure, name.c_str(), nullptr, nullptr);
-      if (state.topic < 0) return fail_link(settings, "topic " + name, state.topic);
-      const dds_topic_filter filter{DDS_TOPIC_FILTER_SAMPLEINFO_ARG, {.sampleinfo_arg = &admits}, &state};
-      dds_set_topic_filter_extended(state.topic, &filter);
-      if (is_listed(settings.topics_out, topic) && topic != Topic::ownship)
-        state.writer = dds_create_writer(publisher, state.topic, qos_of(topic).get(), nullptr);
-      if (is_listed(settings.topics_in, topic)) state.reader = open_reader(topic);
-      for (const dds_entity_t entity : {state.writer, state.reader})
-        if (entity < 0 && entity != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-          return fail_link(settings, "a writer and a reader of topic " + name, entity);
-    }
-    return {};
-  }
+// The only way to free instances whose writer lives. What the writers keep arrives again.
+void Link::State::renew_flooded_reader(Topic topic) {
+  if (at(topic).quota.strays() <= kMaxStrays || at(topic).reader <= 0) return;
+  dds_delete(at(topic).reader);
+  at(topic).quota.clear();
+  at(topic).reader = open_reader(topic);
+}
 
-  // Negative: an error of Cyclone DDS.
-  dds_entity_t open_reader(Topic topic) {
-    const Qos qos = qos_of(topic);
-    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-    // Who poses as a host writes to its instance. With one sample for both, a loaded gateway would lose that host.
-    constexpr int kAnnouncements = 64;
-    if (topic == Topic::hosts) dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kAnnouncements);
-    const dds_entity_t reader = dds_create_reader(subscriber, at(topic).topic, qos.get(), nullptr);
-    const bool is_awaited = topic == Topic::probes || topic == Topic::input_events;
-    if (reader > 0 && is_awaited) {
-      const dds_entity_t condition = dds_create_readcondition(reader, DDS_NOT_READ_SAMPLE_STATE);
-      dds_waitset_attach(waitset, condition, condition);
-    }
-    return reader;
-  }
+// A message for the first sample, the 10th, the 100th, ...
+void Link::State::report_refused(Topic topic) {
+  TopicState& state = at(topic);
+  const std::uint64_t refused = state.quota.refused();
+  if (refused < state.next_report) return;
+  while (state.next_report <= refused) state.next_report *= 10;
+  Messages::instance().add("topic " + std::string(settings_of(topic).name) + ": expected at most " +
+                           std::to_string(settings_of(topic).instances) + " instances of a writer, found more; " +
+                           std::to_string(refused) + " samples left out so far; another program writes there");
+}
 
-  // The only way to free instances whose writer lives. What the writers keep arrives again.
-  void renew_reader(Topic topic) {
-    dds_delete(at(topic).reader);
-    at(topic).quota.clear();
-    at(topic).reader = open_reader(topic);
-  }
+bool Link::State::is_from(Topic topic, dds_instance_handle_t writer, std::uint64_t host) {
+  if (!is_secured() || (host != 0 && senders.host_of(at(topic).reader, writer) == host)) return true;
+  if (at(topic).posed++ == 0)
+    Messages::instance().add(
+        "topic " + std::string(settings_of(topic).name) +
+        ": expected samples of the host that the writer's certificate names, found one of another; "
+        "such samples are left out");
+  return false;
+}
 
-  // A message for the first sample, the 10th, the 100th, ...
-  void report_refused(Topic topic) {
-    TopicState& state = at(topic);
-    const std::uint64_t refused = state.quota.refused();
-    if (refused < state.next_report) return;
-    while (state.next_report <= refused) state.next_report *= 10;
-    Messages::instance().add("topic " + std::string(settings_of(topic).name) + ": expected at most " +
-                             std::to_string(settings_of(topic).instances) + " instances of a writer, found more; " +
-                             std::to_string(refused) + " samples left out so far; another program writes there");
-  }
-
-  bool write(dds_entity_t writer, Topic topic, const void* sample, std::size_t bytes) {
-    if (writer <= 0 || dds_write(writer, sample) < 0) return false;
-    ++at(topic).counts.sent;
-    at(topic).counts.sent_bytes += bytes;
-    return true;
-  }
-
-  // True if the sample's writer is the host that the sample names, or may be.
-  bool is_from(Topic topic, dds_instance_handle_t writer, std::uint64_t host) {
-    if (settings.security.empty() || (host != 0 && senders.host_of(at(topic).reader, writer) == host)) return true;
-    if (at(topic).posed++ == 0)
-      Messages::instance().add(
-          "topic " + std::string(settings_of(topic).name) +
-          ": expected samples of the host that the writer's certificate names, found one of another; "
-          "such samples are left out");
-    return false;
-  }
-
-  void update_senders() {
-    constexpr std::uint32_t kInterval = 10;  // passes
-    if (settings.security.empty() || passes++ % kInterval != 0) return;
-    for (std::size_t i = 0; i < kTopicCount; ++i) senders.update(topics[i].reader, static_cast<Topic>(i));
-  }
-
-  TopicState& at(Topic topic) { return topics[index_of(topic)]; }
-
-  radar::NetworkSettings settings;
-  dds_entity_t domain = 0, participant = 0, publisher = 0, subscriber = 0, waitset = 0;
-  std::array<dds_entity_t, kMaxLanes> ownship_writers{};
-  std::array<std::uint32_t, kMaxLanes> ownship_strengths{};
-  std::deque<TopicState> topics;  // Cyclone DDS keeps pointers to them
-  Participants others;
-  Senders senders;  // in use with security
-  std::uint32_t passes = 0;
-};
-
-Link::Link(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Link::Link(Link&&) noexcept = default;
-Link& Link::operator=(Link&&) noexcept = default;
-Link::~Link() = default;
+void Link::State::update_senders() {
+  constexpr std::uint32_t kInterval = 10;  // passes
+  if (!is_secured() || passes++ % kInterval != 0) return;
+  for (std::size_t i = 0; i < kTopicCount; ++i) senders.update(topics[i].reader, static_cast<Topic>(i));
+}
 
 error::Expected<Link> Link::open(const radar::NetworkSettings& settings, const std::string& session) {
-  auto state = std::make_unique<State>();
-  state->settings = settings;
+  auto state = std::make_unique<State>(settings);
   dds_set_log_sink(&Messages::receive, &Messages::instance());
   const auto id = static_cast<dds_domainid_t>(settings.domain);
   state->domain = dds_create_domain(id, domain_configuration(settings).c_str());
@@ -265,32 +213,13 @@ error::Expected<Link> Link::open(const radar::NetworkSettings& settings, const s
     return fail_link(settings, "a DDS participant on interface " + settings.interfaces.front(), state->participant);
   bind_sockets(settings);
   if (auto opened = state->open_topics(session); !opened) return tl::unexpected(opened.error());
-  state->others.open(state->participant, session, !settings.security.empty());
+  state->others.open(state->participant, session, state->is_secured());
   return Link(std::move(state));
 }
 
 bool Link::writes(Topic topic) const {
   if (topic == Topic::ownship) return is_listed(state_->settings.topics_out, topic);  // has a writer for each lane
   return state_->at(topic).writer > 0;
-}
-
-bool Link::reads(Topic topic) const {
-  return state_->at(topic).reader > 0;
-}
-
-bool Link::host_writes(std::uint64_t host, Topic topic) const {
-  return state_->settings.security.empty() || !reads(topic) || state_->senders.writes(host, topic);
-}
-
-bool Link::write_bytes(Topic topic, const void* sample, std::size_t bytes) {
-  return state_->write(state_->at(topic).writer, topic, sample, bytes);
-}
-
-void Link::dispose_bytes(Topic topic, const void* sample) {
-  const dds_entity_t writer = state_->at(topic).writer;
-  if (writer <= 0) return;
-  dds_dispose(writer, sample);
-  dds_unregister_instance(writer, sample);
 }
 
 bool Link::write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sample) {
@@ -304,29 +233,13 @@ bool Link::write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sampl
     writer = dds_create_writer(state_->publisher, state_->at(Topic::ownship).topic, qos.get(), nullptr);
     state_->ownship_strengths[lane] = sample.priority;
   }
-  return state_->write(writer, Topic::ownship, &sample, sizeof sample);
+  return state_->write(writer, sample);
 }
 
 void Link::end_ownship(std::uint32_t lane) {
   if (lane >= kMaxLanes || state_->ownship_writers[lane] <= 0) return;
   dds_delete(state_->ownship_writers[lane]);
   state_->ownship_writers[lane] = 0;
-}
-
-void Link::take_each(Topic topic, Facts (*facts_of)(const void*), const std::function<void(const void*, bool)>& take) {
-  if (topic == Topic::hosts) state_->update_senders();
-  TopicState& state = state_->at(topic);
-  if (state.quota.strays() > kMaxStrays) state_->renew_reader(topic);
-  take_samples(state.reader, kMaxTaken, [&](const void* sample, const dds_sample_info_t& info) {
-    const bool has_ended = info.instance_state != DDS_IST_ALIVE;
-    if (has_ended) state.quota.end(info.instance_handle);
-    // A sample that the reader held before its writer's lease ended comes with the end.
-    if (!info.valid_data && !(has_ended && topic == Topic::hosts)) return;
-    const auto [bytes, sender] = facts_of(sample);
-    state.counts.received += info.valid_data ? 1 : 0;
-    state.counts.received_bytes += info.valid_data ? bytes : 0;
-    if (state_->is_from(topic, info.publication_handle, sender)) take(sample, info.valid_data);
-  });
 }
 
 bool Link::is_acknowledged() const {
@@ -337,21 +250,9 @@ bool Link::is_acknowledged() const {
          std::ranges::all_of(state_->ownship_writers, has_all);
 }
 
-void Link::wait(std::int64_t time_ns) {
-  if (time_ns > 0) dds_waitset_wait(state_->waitset, nullptr, 0, time_ns);
-}
-
-const databuffer::TopicStatus& Link::counts(Topic topic) const {
-  return state_->at(topic).counts;
-}
-
 std::vector<std::string> Link::take_messages(std::int64_t now_ns) {
   for (std::size_t i = 0; i < kTopicCount; ++i) state_->report_refused(static_cast<Topic>(i));
   return Messages::instance().take(now_ns);
-}
-
-Participants& Link::participants() {
-  return state_->others;
 }
 
 }  // namespace yars::gateway::dds

@@ -8,46 +8,48 @@
 // Source: Eclipse Cyclone DDS 0.10, C API.
 #pragma once
 
-#include <cstdint>
-#include <functional>
+#include <dds/dds.h>
+
+#include <deque>
 #include <memory>
-#include <string>
 #include <type_traits>
-#include <vector>
 
 #include "databuffer/messages/network_status.hpp"
+#include "gateway/dds/instance_quota.hpp"
+#include "gateway/dds/participants.hpp"
+#include "gateway/dds/senders.hpp"
 #include "gateway/dds/topics.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/network.hpp"
 
 namespace yars::gateway::dds {
 
-class Participants;
-
 class Link {
  public:
   // `session`: name of the session, which is the DDS partition.
   // `settings.name`: of this host, not empty.
   static error::Expected<Link> open(const radar::NetworkSettings& settings, const std::string& session);
-  Link(Link&&) noexcept;
-  Link& operator=(Link&&) noexcept;
-  ~Link();  // other hosts learn at once that this one has left
 
   // True if the form Network and the permissions of DDS Security let the topic out, or in.
   bool writes(Topic topic) const;
-  bool reads(Topic topic) const;
+  bool reads(Topic topic) const { return state_->at(topic).reader > 0; }
   // True if another host has a writer of the topic, as its permissions must allow. Without security always true.
-  bool host_writes(std::uint64_t host, Topic topic) const;
+  bool host_writes(std::uint64_t host, Topic topic) const {
+    return !state_->is_secured() || !reads(topic) || state_->senders.writes(host, topic);
+  }
 
   // False: the topic is not let out, or DDS refused the sample.
   template <class Sample>
   bool write(const Sample& sample) {
-    return write_bytes(kTopicOf<Sample>, &sample, bytes_of(sample));
+    return state_->write(state_->at(kTopicOf<Sample>).writer, sample);
   }
   // Ends the sample's instance, for example a row of a map that no longer exists.
   template <class Sample>
   void dispose(const Sample& sample) {
-    dispose_bytes(kTopicOf<Sample>, &sample);
+    const dds_entity_t writer = state_->at(kTopicOf<Sample>).writer;
+    if (writer <= 0) return;
+    dds_dispose(writer, &sample);
+    dds_unregister_instance(writer, &sample);
   }
   // Ownship of one lane, with the lane's priority as strength. The other hosts get the strongest live writer's samples.
   bool write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sample);
@@ -64,28 +66,75 @@ class Link {
   // sample only `host` is valid.
   template <class Take>
   void take_hosts(const Take& take) {
+    state_->update_senders();
     take_all<yars_net_HostSample>(take);
   }
 
   // Returns when a sample of a topic that is answered at once has arrived (probes, input events), or after `time_ns`.
-  void wait(std::int64_t time_ns);
+  void wait(std::int64_t time_ns) {
+    if (time_ns > 0) dds_waitset_wait(state_->waitset, nullptr, 0, time_ns);
+  }
   // True if the readers of all other hosts have what was written here.
   bool is_acknowledged() const;
 
-  const databuffer::TopicStatus& counts(Topic topic) const;
+  const databuffer::TopicStatus& counts(Topic topic) const { return state_->at(topic).counts; }
   // Messages of Cyclone DDS since the last call: at most some lines a second, and a count of those left out. Call it
   // about twice a second. `now_ns`: CLOCK_MONOTONIC.
   std::vector<std::string> take_messages(std::int64_t now_ns);
-  Participants& participants();  // that exchange nothing with this one
+  Participants& participants() { return state_->others; }  // that exchange nothing with this one
 
  private:
-  struct State;
-  // Of a sample: its size, and the host that it names as its writer.
-  struct Facts {
-    std::size_t bytes;
-    std::uint64_t sender;
+  static constexpr std::uint32_t kMaxLanes = 16;  // ownship lanes with writers of their own
+  // Samples, or ends of instances, that one call of take() passes on: 30 ms. Without a limit the end of a writer of
+  // 70,000 instances kept a gateway from its announcements for longer than the lease of 0.5 s.
+  static constexpr int kMaxTaken = 4096;
+
+  // A topic, with the entities that Cyclone DDS has for it.
+  struct TopicState {
+    explicit TopicState(Topic topic);
+    dds_entity_t topic = 0, reader = 0, writer = 0;
+    databuffer::TopicStatus counts{};
+    std::uint64_t posed = 0;        // samples that named another host than their writer's
+    InstanceQuota quota;            // of the reader
+    std::uint64_t next_report = 1;  // number of refused samples that is worth a message
   };
-  explicit Link(std::unique_ptr<State> state);
+  struct State {
+    explicit State(const radar::NetworkSettings& settings);
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State();  // other hosts learn at once that this one has left
+    error::Expected<void> open_topics(const std::string& session);
+    dds_entity_t open_reader(Topic topic);  // negative: an error of Cyclone DDS
+    void renew_flooded_reader(Topic topic);
+    void update_senders();
+    void report_refused(Topic topic);
+    // True if the sample's writer is the host that the sample names, or may be.
+    bool is_from(Topic topic, dds_instance_handle_t writer, std::uint64_t host);
+    bool is_secured() const { return !settings.security.empty(); }
+    template <class Sample>
+    bool write(dds_entity_t writer, const Sample& sample) {
+      if (writer <= 0 || dds_write(writer, &sample) < 0) return false;
+      ++at(kTopicOf<Sample>).counts.sent;
+      at(kTopicOf<Sample>).counts.sent_bytes += bytes_of(sample);
+      return true;
+    }
+    TopicState& at(Topic topic) { return topics[index_of(topic)]; }
+
+    radar::NetworkSettings settings;
+    dds_entity_t domain = 0, participant = 0, publisher = 0, subscriber = 0, waitset = 0;
+    std::array<dds_entity_t, kMaxLanes> ownship_writers{};
+    std::array<std::uint32_t, kMaxLanes> ownship_strengths{};
+    std::deque<TopicState> topics;  // Cyclone DDS keeps pointers to them
+    Participants others;
+    Senders senders;  // in use with security
+    std::uint32_t passes = 0;
+  };
+
+  explicit Link(std::unique_ptr<State> state) : state_(std::move(state)) {}
+  // Filter of a topic. It is asked for each sample that arrives, on threads of Cyclone DDS.
+  static bool admits(const dds_sample_info_t* info, void* topic) {
+    return static_cast<TopicState*>(topic)->quota.admits(info->instance_handle, info->publication_handle);
+  }
   template <class Sample>
   static std::size_t bytes_of(const Sample& sample) {
     if constexpr (std::is_same_v<Sample, yars_net_SweepSample>)
@@ -93,22 +142,33 @@ class Link {
     else
       return sizeof sample;
   }
+  // Host that a sample names as its writer.
   template <class Sample>
-  static Facts facts_of(const void* bytes) {
-    const Sample& sample = *static_cast<const Sample*>(bytes);
+  static std::uint64_t sender_of(const Sample& sample) {
     if constexpr (std::is_same_v<Sample, yars_net_ProbeSample>)
-      return {sizeof sample, sample.stage == 0 ? sample.from : sample.to};
+      return sample.stage == 0 ? sample.from : sample.to;
     else
-      return {bytes_of(sample), sample.host};
+      return sample.host;
   }
   template <class Sample, class Take>
   void take_all(const Take& take) {
-    take_each(kTopicOf<Sample>, &facts_of<Sample>,
-              [&](const void* sample, bool alive) { take(*static_cast<const Sample*>(sample), alive); });
+    constexpr Topic kTopic = kTopicOf<Sample>;
+    TopicState& state = state_->at(kTopic);
+    state_->renew_flooded_reader(kTopic);
+    take_samples(state.reader, kMaxTaken, [&](const void* bytes, const dds_sample_info_t& info) {
+      const Sample& sample = *static_cast<const Sample*>(bytes);
+      const bool has_ended = info.instance_state != DDS_IST_ALIVE;
+      if (has_ended) state.quota.end(info.instance_handle);
+      if (info.valid_data) {
+        ++state.counts.received;
+        state.counts.received_bytes += bytes_of(sample);
+      } else if (!has_ended || kTopic != Topic::hosts) {
+        return;
+      }
+      // A sample that the reader held before its writer's lease ended comes with the end.
+      if (state_->is_from(kTopic, info.publication_handle, sender_of(sample))) take(sample, info.valid_data);
+    });
   }
-  void take_each(Topic topic, Facts (*facts_of)(const void*), const std::function<void(const void*, bool)>& take);
-  bool write_bytes(Topic topic, const void* sample, std::size_t bytes);
-  void dispose_bytes(Topic topic, const void* sample);
 
   std::unique_ptr<State> state_;
 };

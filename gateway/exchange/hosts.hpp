@@ -7,17 +7,14 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "databuffer/messages/network_status.hpp"
 #include "databuffer/session/session.hpp"
 #include "gateway/authority.hpp"
 #include "gateway/clock_offset.hpp"

@@ -7,14 +7,8 @@
 // Source: docs/network.md#which-host-has-a-role.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <utility>
 
-#include "databuffer/session/session.hpp"
 #include "gateway/exchange/hosts.hpp"
 #include "lib/log/log.hpp"
 

@@ -53,14 +53,10 @@ class State {
     if (!context.roles.exports(role_) || !slot.has_value()) return;
     const bool is_new = reader_.refresh(slot);
     if (!reader_.has_value() || !pace_.is_due(is_new, context.now_ns, context.lockstep ? 0 : least_ns_)) return;
-    Sample sample{};
-    context.hosts.stamp(sample);
+    auto sample = context.made<Sample>();
     copy_record(sample.*field_, reader_.value());
     name_lanes(sample, lanes, context.hosts.self().id);
     context.write(sample);
-  }
-  void take(Context& context, const LaneNames& lanes) {
-    context.link->take<Sample>([&](const Sample& sample) { receive(context, lanes, sample); });
   }
   // Publishes the record of the host that has the role. Samples of other hosts, or of other topics, are left out.
   template <class Other>
@@ -106,7 +102,7 @@ class StateExchange {
   }
   void receive(Context& context) {
     context.take<yars_net_OwnshipSample>(*this);
-    for_each([&](auto& state) { state.take(context, *lanes_); });
+    for_each([&]<class Sample, class... Others>(State<Sample, Others...>&) { context.take<Sample>(*this); });
     keep_lane(context);
   }
   template <class Sample>
@@ -117,9 +113,8 @@ class StateExchange {
     if (!context.hosts.is_new(sample) || context.hosts.find(sample.host) == nullptr) return;
     const bool has_nav = !std::isnan(sample.nav.mission_latitude_deg);
     const auto ownship = context.valid<databuffer::Ownship>(sample, sample.ownship);
-    if (!ownship) return;
-    const auto nav = has_nav ? context.valid<databuffer::Nav>(sample, sample.nav) : std::nullopt;
-    if (has_nav && !nav) return;
+    const auto nav = ownship && has_nav ? context.valid<databuffer::Nav>(sample, sample.nav) : std::nullopt;
+    if (!ownship || (has_nav && !nav)) return;
     if (!lane_) {
       auto claim = context.session.claim_ownship_lane(sample.priority);
       if (!claim) return context.hosts.refuse(sample, claim.error().message());
@@ -168,10 +163,9 @@ class StateExchange {
       const auto number = static_cast<std::uint32_t>(lane);
       SentLane& sent = sent_lanes_[lane];
       if (lanes_->ownship_lane == lane || !std::as_const(context.session).ownship_lane_is_held(lane)) {
-        if (std::exchange(sent.is_held, false)) context.link->end_ownship(number);
+        context.link->end_ownship(number);
         continue;
       }
-      sent.is_held = true;
       const std::uint64_t version = layout.ownship[lane].version();
       const bool repeats = context.lockstep && context.now_ns - sent.sent_ns > kLockstepRefresh_ns;
       if (version == sent.version && !repeats) {
@@ -197,7 +191,6 @@ class StateExchange {
   struct SentLane {
     std::uint64_t version = 0;
     std::int64_t sent_ns = 0;
-    bool is_held = false;
   };
   LaneNames* lanes_;
   decltype(all_states()) states_ = all_states();
