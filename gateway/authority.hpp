@@ -13,6 +13,14 @@
 
 namespace yars::gateway {
 
+// Epochs count on from 0 after the greatest number.
+constexpr bool is_later(std::uint32_t epoch, std::uint32_t other) {
+  return static_cast<std::int32_t>(epoch - other) > 0;
+}
+constexpr std::uint32_t later_of(std::uint32_t epoch, std::uint32_t other) {
+  return is_later(other, epoch) ? other : epoch;
+}
+
 // A host that is heard, or this host.
 struct HostView {
   std::uint64_t id = 0;

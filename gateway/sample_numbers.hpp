@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 namespace yars::gateway {
@@ -17,14 +18,12 @@ class SampleNumbers {
   // deliver again in a row. After more of them, the highest number is taken for an error, and counting begins anew. So
   // is a number far ahead, until kConfirmations samples have followed it.
   bool is_new(std::uint64_t start, std::uint64_t number, std::uint64_t max_repeats = kDefaultRepeats) {
-    if (begun_ && start != start_ && start == former_start_) {
-      ++repeated_;  // from a gateway process that has ended
-      return false;
-    }
-    if (start != start_ || !begun_) {
-      former_start_ = start_;
-      start_ = start;
-      begun_ = true;
+    if (start_ != start) {
+      if (former_start_ == start) {
+        ++repeated_;  // from a gateway process that has ended
+        return false;
+      }
+      former_start_ = std::exchange(start_, start);
       next_ = number;
     }
     constexpr std::uint64_t kNone = ~std::uint64_t{0};  // no sender counts so far; the number after it would be 0
@@ -44,15 +43,14 @@ class SampleNumbers {
   }
   // The former process has not ended: its samples count again, if it is this one.
   void readmit(std::uint64_t start) {
-    if (start == former_start_) former_start_ = start_;
+    if (former_start_ == start) former_start_.reset();
   }
   // Continues where a predecessor of this process stopped: `next` is the number of the next sample to take.
   void resume(std::uint64_t start, std::uint64_t next) {
     start_ = start;
     next_ = next;
-    begun_ = true;
   }
-  bool knows(std::uint64_t start) const { return begun_ && start_ == start; }  // samples of this process have arrived
+  bool knows(std::uint64_t start) const { return start_ == start; }  // samples of this process have arrived
   std::uint64_t next() const { return next_; }  // number of the next expected sample; 0: none has arrived
   std::uint64_t received() const { return received_; }
   std::uint64_t repeated() const { return repeated_; }
@@ -63,8 +61,8 @@ class SampleNumbers {
   static constexpr std::uint64_t kConfirmations = 3;
   static constexpr std::uint64_t kDefaultRepeats = 4096;  // above the depth of every history
   std::uint64_t run_ = 0, run_next_ = 0;  // samples in a row with rising numbers; the least number that continues it
-  std::uint64_t start_ = 0, former_start_ = 0, next_ = 0, received_ = 0, repeated_ = 0, lost_ = 0;
-  bool begun_ = false;
+  std::optional<std::uint64_t> start_, former_start_;  // of the process that writes, and of the one before
+  std::uint64_t next_ = 0, received_ = 0, repeated_ = 0, lost_ = 0;
 };
 
 // Whether several processes announce themselves with one name at the same time.

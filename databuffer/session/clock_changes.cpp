@@ -11,15 +11,17 @@ namespace yars::databuffer {
 
 namespace {
 
-// The clock with the present time as its base, so that sim time does not jump when the rest changes.
 ClockState rebased(const ClockState& clock) {
-  ClockState next = clock;
-  next.base_monotonic_ns = monotonic_ns();
-  next.base_sim_ns = sim_time_at(clock, next.base_monotonic_ns);
-  return next;
+  return rebased(clock, monotonic_ns());
 }
 
 }  // namespace
+
+ClockState rebased(ClockState clock, std::int64_t base_ns) {
+  clock.base_sim_ns = sim_time_at(clock, base_ns);
+  clock.base_monotonic_ns = base_ns;
+  return clock;
+}
 
 ClockState with_running(const ClockState& clock, bool running) {
   ClockState next = rebased(clock);

@@ -21,6 +21,8 @@ inline constexpr std::int64_t kStepPortion_ticks = 10;
 // [ms] Time that programs need to run the ticks of a portion, and the first tick of an epoch.
 inline constexpr int kPortionTime_ms = 30;
 
+// The clock with its base moved to the CLOCK_MONOTONIC time `base_ns`; sim time does not change.
+ClockState rebased(ClockState clock, std::int64_t base_ns);
 ClockState with_running(const ClockState& clock, bool running);
 ClockState with_rate(const ClockState& clock, double rate);
 // Freezes and advances by at most kStepPortion_ticks. From any time within a tick, the first step leads to the start

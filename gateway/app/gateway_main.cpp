@@ -215,11 +215,6 @@ class GatewayShell {
   runtime::LoadMeter load_;
 };
 
-struct GatewayOptions {
-  std::string network;
-  std::string terrain;
-};
-
 // Hash of a configuration's values. The folders of terrain and scenes are left out: they may differ between computers.
 std::uint64_t configuration_hash(radar::RadarConfiguration configuration) {
   configuration.terrain.directory.clear();
@@ -295,18 +290,19 @@ error::Expected<bool> join(const runtime::ProgramOptions& options, Joining& join
   return false;
 }
 
-error::Expected<void> run(const runtime::ProgramOptions& options, const GatewayOptions& gateway_options) {
-  auto loaded = config::load_network(gateway_options.network, options.config);
+error::Expected<void> run(const runtime::ProgramOptions& options, const std::string& network,
+                          const std::string& terrain) {
+  auto loaded = config::load_network(network, options.config);
   if (!loaded) return tl::unexpected(loaded.error());
   radar::NetworkSettings& settings = loaded->network;
   radar::RadarConfiguration& configuration = loaded->radar;
   if (settings.name.empty()) settings.name = checks::host_name();
   auto peers = check(settings);
   if (!peers) return tl::unexpected(peers.error());
-  if (gateway_options.network.empty())
+  if (network.empty())
     log::info(loaded->source.empty() ? "no form Network: this computer alone, over the loopback interface"
                                      : "form Network of " + loaded->source);
-  if (!gateway_options.terrain.empty()) configuration.terrain.directory = gateway_options.terrain;
+  if (!terrain.empty()) configuration.terrain.directory = terrain;
   const Identity identity{settings.name,
                           static_cast<std::uint32_t>(settings.priority),
                           0,
@@ -314,11 +310,9 @@ error::Expected<void> run(const runtime::ProgramOptions& options, const GatewayO
                           configuration_hash(configuration),
                           terrain_hash(configuration.terrain.directory)};
   Joining joining{std::move(settings), std::move(*peers), identity};
-  for (;;) {
-    const auto again = join(options, joining);
-    if (!again) return tl::unexpected(again.error());
-    if (!*again) return {};
-  }
+  error::Expected<bool> again = true;
+  while (again && *again) again = join(options, joining);
+  return again.map([](bool) {});
 }
 
 }  // namespace
@@ -327,12 +321,12 @@ int main(int argc, char** argv) {
   runtime::CommandLine app("YARS gateway: joins the session of this computer to those of other computers", "gateway");
   runtime::ProgramOptions options;
   runtime::add_common_options(app, options, runtime::ProgramKind::service);
-  GatewayOptions gateway_options;
-  app.option("--network", gateway_options.network, "GUF file with the form Network: peers, interfaces, domain")
+  std::string network, terrain;
+  app.option("--network", network, "GUF file with the form Network: peers, interfaces, domain")
       .value_name("FILE")
       .otherwise("that of the configuration, else this computer alone, over the loopback interface");
-  app.option("--terrain", gateway_options.terrain, "folder of elevation cells, compared with that of other computers")
+  app.option("--terrain", terrain, "folder of elevation cells, compared with that of other computers")
       .value_name("DIR")
       .otherwise("the configuration's");
-  return runtime::run_program(argc, argv, app, options, [&] { return run(options, gateway_options); });
+  return runtime::run_program(argc, argv, app, options, [&] { return run(options, network, terrain); });
 }

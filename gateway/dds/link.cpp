@@ -19,32 +19,24 @@ constexpr std::uint64_t kMaxStrays = 8192;  // ends of instances that never had 
 
 // Messages of Cyclone DDS, which arrive on its own threads. One object for the process, as Cyclone has one sink.
 // Whoever reaches the ports can make Cyclone write many, so they are limited. Their time is that of the last take().
-class Messages {
- public:
-  static Messages& instance() {
-    static Messages messages;
-    return messages;
-  }
-  static void receive(void* self, const dds_log_data_t* data) {
-    std::string text(data->message, data->size);
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    static_cast<Messages*>(self)->add(text);
-  }
-  std::vector<std::string> take(std::int64_t now_ns) {
-    const std::lock_guard guard(mutex_);
-    now_ns_ = std::max(now_ns_, now_ns);
-    return limit_.take("Cyclone DDS", now_ns_);
-  }
-  void add(const std::string& text) {
-    const std::lock_guard guard(mutex_);
-    limit_.add(text, now_ns_);
-  }
+struct {
+  std::mutex mutex;
+  MessageLimit limit;
+  std::int64_t now_ns = 0;
+} messages;
 
- private:
-  std::mutex mutex_;
-  MessageLimit limit_;
-  std::int64_t now_ns_ = 0;
-};
+void add_message(const std::string& text) {
+  const std::lock_guard guard(messages.mutex);
+  messages.limit.add(text, messages.now_ns);
+}
+void receive_message(void*, const dds_log_data_t* data) {
+  add_message(std::string(text::trimmed({data->message, data->size})));
+}
+std::vector<std::string> taken_messages(std::int64_t now_ns) {
+  const std::lock_guard guard(messages.mutex);
+  messages.now_ns = std::max(messages.now_ns, now_ns);
+  return messages.limit.take("Cyclone DDS", messages.now_ns);
+}
 
 using Qos = std::unique_ptr<dds_qos_t, decltype([](dds_qos_t* qos) { dds_delete_qos(qos); })>;
 
@@ -97,8 +89,8 @@ bool is_listed(const std::vector<std::string>& names, Topic topic) {
 // What Cyclone DDS has said last, else what `code` means. It takes a port for its participant with the domain already.
 tl::unexpected<error::Error> fail_link(const radar::NetworkSettings& settings, const std::string& expected,
                                        dds_return_t code) {
-  const auto messages = Messages::instance().take(0);
-  const std::string found = messages.empty() ? dds_strretcode(-code) : messages.front();
+  const auto said = taken_messages(0);
+  const std::string found = said.empty() ? dds_strretcode(-code) : said.front();
   if (found.find("free participant index") == std::string::npos)
     return error::fail("network", expected, found, "check interfaces, peers, domain and security of the form Network");
   return error::fail(
@@ -181,18 +173,17 @@ void Link::State::report_refused(Topic topic) {
   const std::uint64_t refused = state.quota.refused();
   if (refused < state.next_report) return;
   while (state.next_report <= refused) state.next_report *= 10;
-  Messages::instance().add("topic " + std::string(settings_of(topic).name) + ": expected at most " +
-                           std::to_string(settings_of(topic).instances) + " instances of a writer, found more; " +
-                           std::to_string(refused) + " samples left out so far; another program writes there");
+  add_message("topic " + std::string(settings_of(topic).name) + ": expected at most " +
+              std::to_string(settings_of(topic).instances) + " instances of a writer, found more; " +
+              std::to_string(refused) + " samples left out so far; another program writes there");
 }
 
 bool Link::State::is_from(Topic topic, dds_instance_handle_t writer, std::uint64_t host) {
   if (!is_secured() || (host != 0 && senders.host_of(at(topic).reader, writer) == host)) return true;
   if (at(topic).posed++ == 0)
-    Messages::instance().add(
-        "topic " + std::string(settings_of(topic).name) +
-        ": expected samples of the host that the writer's certificate names, found one of another; "
-        "such samples are left out");
+    add_message("topic " + std::string(settings_of(topic).name) +
+                ": expected samples of the host that the writer's certificate names, found one of another; such "
+                "samples are left out");
   return false;
 }
 
@@ -204,7 +195,7 @@ void Link::State::update_senders() {
 
 error::Expected<Link> Link::open(const radar::NetworkSettings& settings, const std::string& session) {
   auto state = std::make_unique<State>(settings);
-  dds_set_log_sink(&Messages::receive, &Messages::instance());
+  dds_set_log_sink(&receive_message, nullptr);
   const auto id = static_cast<dds_domainid_t>(settings.domain);
   state->domain = dds_create_domain(id, domain_configuration(settings).c_str());
   if (state->domain < 0) return fail_link(settings, "a configuration that Cyclone DDS accepts", state->domain);
@@ -252,7 +243,7 @@ bool Link::is_acknowledged() const {
 
 std::vector<std::string> Link::take_messages(std::int64_t now_ns) {
   for (std::size_t i = 0; i < kTopicCount; ++i) state_->report_refused(static_cast<Topic>(i));
-  return Messages::instance().take(now_ns);
+  return taken_messages(now_ns);
 }
 
 }  // namespace yars::gateway::dds

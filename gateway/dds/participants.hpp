@@ -82,15 +82,14 @@ class Participants {
     take_writers();
     std::vector<Remark> remarks;
     for (auto& [key, other] : others_) {
-      if (other.is_named || other.is_here || other.name.empty()) continue;
-      if (other.session.empty() && now_ns - other.first_ns < kSilence_ns) continue;
+      const bool is_silent = other.session.empty();
+      if (other.is_named || !is_apart(other) || (is_silent && now_ns - other.first_ns < kSilence_ns)) continue;
       other.is_named = true;
-      if (other.session.empty())
-        remarks.push_back(silence_of(other.name, other.address, secured_));
-      else
-        remarks.push_back({gateway_text(other.name, other.address) + " is of session " + other.session +
-                           ", this one of session " + session_ +
-                           ": nothing is exchanged; start both with the same --session, if they belong together"});
+      remarks.push_back(is_silent ? silence_of(other.name, other.address, secured_)
+                                  : Remark{gateway_text(other.name, other.address) + " is of session " + other.session +
+                                           ", this one of session " + session_ +
+                                           ": nothing is exchanged; start both with "
+                                           "the same --session, if they belong together"});
     }
     return remarks;
   }
@@ -100,10 +99,9 @@ class Participants {
   // loses messages (eclipse-cyclonedds/cyclonedds, issue 1895). Of two gateways the one with the greater GUID is told
   // so. Each participant is named once.
   std::string take_lost_handshake(std::int64_t now_ns) {
-    if (!secured_) return "";
     for (auto& [key, other] : others_) {
-      if (other.is_lost || other.is_here || other.name.empty() || !other.session.empty()) continue;
-      if (now_ns - other.first_ns < kHandshake_ns || !(key < self_)) continue;
+      const bool is_lost = secured_ && is_apart(other) && other.session.empty() && key < self_;
+      if (!is_lost || other.is_lost || now_ns - other.first_ns < kHandshake_ns) continue;
       other.is_lost = true;
       return other.name;
     }
@@ -129,6 +127,9 @@ class Participants {
     bool is_named = false;
     bool is_lost = false;  // take_lost_handshake() has named it
   };
+
+  // A gateway that exchanges nothing with this one.
+  static bool is_apart(const Other& other) { return !other.is_here && !other.name.empty(); }
 
   static std::string property(const dds_qos_t* qos, const char* name) {
     char* value = nullptr;

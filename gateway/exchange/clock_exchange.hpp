@@ -61,7 +61,7 @@ class ClockExchange {
     }
     const auto changed = context.session.change_clock([&](const ClockState& clock) {
       const std::int64_t now_ns = databuffer::monotonic_ns();
-      ClockState next = is_based_on(change, clock) ? wanted : with_late_change(clock, change, now_ns);
+      ClockState next = changed_clock(clock, change, now_ns);
       // The request has the sim time that its host had. The time of transmission has passed since.
       next.base_monotonic_ns = std::min(next.base_monotonic_ns, now_ns);
       next.epoch = clock.epoch + (change.begins_epoch ? 1 : 0);
@@ -84,21 +84,6 @@ class ClockExchange {
   static constexpr std::int64_t kMaxBehind_ns = 100'000'000;     // kMaxTicksBehind ticks
   static constexpr std::int64_t kRounding_ns = 1'000;            // of sim times that are equal but for their base
 
-  // Epochs count on from 0 after the greatest number.
-  static bool is_later(std::uint32_t first, std::uint32_t second) {
-    return static_cast<std::int32_t>(first - second) > 0;
-  }
-  static std::uint32_t later(std::uint32_t first, std::uint32_t second) {
-    return is_later(second, first) ? second : first;
-  }
-
-  // The clock with its base moved to `now_ns`; sim time does not change.
-  static ClockState rebased(ClockState clock, std::int64_t now_ns) {
-    clock.base_sim_ns = databuffer::sim_time_at(clock, now_ns);
-    clock.base_monotonic_ns = now_ns;
-    return clock;
-  }
-
   // The owner's clock as it was last received, and as it was last written here.
   struct FollowedClock {
     ClockState theirs{}, written{};
@@ -111,23 +96,20 @@ class ClockExchange {
     bool begins_epoch = false;
   };
 
-  // True if the owner's clock is the one that the other host has changed. False: somebody else has changed it
-  // meanwhile. Running clocks of two hosts differ by the error of the offset.
-  static bool is_based_on(const RequestedChange& change, const ClockState& clock) {
+  // The owner's clock after a change that another host has made to its own. If somebody else has changed the clock
+  // meanwhile, what the change left as it was stays as it is. So changes that two hosts make at the same time both take
+  // effect, and sim time does not go back within an epoch.
+  static ClockState changed_clock(const ClockState& clock, const RequestedChange& change, std::int64_t now_ns) {
     const auto& [before, after, begins_epoch] = change;
-    if (before.epoch != clock.epoch || before.rate != clock.rate || before.running != clock.running) return false;
-    const std::int64_t at_ns = after.base_monotonic_ns;
-    const std::int64_t apart_ns = databuffer::sim_time_at(before, at_ns) - databuffer::sim_time_at(clock, at_ns);
-    return std::abs(apart_ns) <= (clock.running != 0 ? kMaxBehind_ns : 0);
-  }
-
-  // The clock after a change that was made to an earlier one: what the change left as it was stays as it is. So changes
-  // that two hosts make at the same time both take effect, and sim time does not go back within an epoch.
-  static ClockState with_late_change(const ClockState& clock, const RequestedChange& change, std::int64_t now_ns) {
-    const auto& [before, after, begins_epoch] = change;
-    const std::int64_t advance_ns = after.base_sim_ns - databuffer::sim_time_at(before, after.base_monotonic_ns);
+    const std::int64_t then_ns = after.base_monotonic_ns, before_ns = databuffer::sim_time_at(before, then_ns);
+    // Running clocks of two hosts differ by the error of the offset.
+    const std::int64_t max_apart_ns = clock.running != 0 ? kMaxBehind_ns : 0;
+    if (before.epoch == clock.epoch && before.rate == clock.rate && before.running == clock.running &&
+        std::abs(before_ns - databuffer::sim_time_at(clock, then_ns)) <= max_apart_ns)
+      return after;
+    const std::int64_t advance_ns = after.base_sim_ns - before_ns;
     const bool sets_time = std::abs(advance_ns) > kRounding_ns;  // false: the time only went on
-    ClockState next = rebased(clock, now_ns);
+    ClockState next = databuffer::rebased(clock, now_ns);
     if (begins_epoch && !equal(before, after)) {  // equal: the host asks for a new epoch alone
       next = after;                               // with its position of the aircraft
       next.base_monotonic_ns = now_ns;
@@ -182,7 +164,7 @@ class ClockExchange {
     bool precedes_all = owns_;
     for (const HostView& host : context.hosts.views().subspan(1)) {
       const std::uint32_t theirs = context.hosts.said_by(host.id).epoch;
-      if (host.owns_clock || host.held_roles != 0) epoch = later(epoch, theirs);
+      if (host.owns_clock || host.held_roles != 0) epoch = later_of(epoch, theirs);
       if (!owns_ || !host.owns_clock) continue;
       conflict = conflict || is_later(theirs, own_epoch);
       precedes_all = precedes_all && precedes(context.hosts.self(), host);
@@ -207,8 +189,8 @@ class ClockExchange {
     const auto model = databuffer::read_valid(std::as_const(context.session).layout().model_status);
     const bool has_ownship = model && (model->flags & databuffer::kModelStale) == 0;
     const auto raised = context.session.change_clock([&](const ClockState& clock) {
-      ClockState next = rebased(clock, databuffer::monotonic_ns());
-      next.epoch = later(clock.epoch, above) + 1;
+      ClockState next = databuffer::rebased(clock, databuffer::monotonic_ns());
+      next.epoch = later_of(clock.epoch, above) + 1;
       next.reposition_latitude_deg = std::numeric_limits<double>::quiet_NaN();
       if (!has_ownship || model->epoch != clock.epoch) return next;
       databuffer::begin_at_aircraft(next, model->ownship, geo::Bearing::degrees(model->ownship.heading_deg));
@@ -312,8 +294,8 @@ class ClockExchange {
     sample.new_epoch = static_cast<std::uint32_t>(epoch);
     // The change may have been made after this pass began.
     const std::int64_t at_ns = std::max(context.now_ns, wanted.base_monotonic_ns);
-    copy_record(sample.before, rebased(before, at_ns));
-    copy_record(sample.clock, rebased(wanted, at_ns));
+    copy_record(sample.before, databuffer::rebased(before, at_ns));
+    copy_record(sample.clock, databuffer::rebased(wanted, at_ns));
     sample.clock.base_monotonic_ns = std::max<std::int64_t>(at_ns + followed_->offset.offset_ns(), 0);
     sample.before.base_monotonic_ns = sample.clock.base_monotonic_ns;
     context.write(sample);

@@ -148,8 +148,7 @@ class HistoryExchange {
     std::uint32_t epoch = 0;
     std::int64_t tick = -1;
     bool precedes(const databuffer::Sweep& sweep) const {
-      const auto newer = static_cast<std::int32_t>(sweep.epoch - epoch);
-      return tick < 0 || newer > 0 || (newer == 0 && sweep.tick > tick);
+      return tick < 0 || is_later(sweep.epoch, epoch) || (sweep.epoch == epoch && sweep.tick > tick);
     }
   };
 
@@ -158,7 +157,7 @@ class HistoryExchange {
   // ticks are from a time in which this host did not hear it.
   template <class Record>
   bool is_past(Context& context, std::uint64_t host, const Record& record) const {
-    if (static_cast<std::int32_t>(record.epoch - context.session.clock().epoch) < 0) return true;
+    if (is_later(context.session.clock().epoch, record.epoch)) return true;
     const bool goes_back = last_tick_.epoch == record.epoch && record.tick < last_tick_.tick - runtime::kMaxTicksBehind;
     return host != last_host_ && goes_back;
   }

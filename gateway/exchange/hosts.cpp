@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::gateway {
@@ -14,8 +13,6 @@ using databuffer::NoteKind;
 constexpr std::int64_t kProbeInterval_ns = 250'000'000;
 constexpr std::int64_t kFirstProbeInterval_ns = 25'000'000;  // of the first kFirstProbes, so that a host joins quickly
 constexpr std::size_t kFirstProbes = 12;
-// Of a few answers one was on the way without a queue. A first offset by one answer was wrong by 50 ms on a bad line.
-constexpr std::size_t kEnoughAnswers = 6;
 constexpr std::int64_t kClaimPatience_ns = 3'000'000'000;
 constexpr std::uint32_t kOtherClaims = 1U << 31U;  // of Host::differences: roles or the clock that it may not have
 constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
@@ -103,14 +100,6 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   update_views();
 }
 
-void Hosts::lose(Host& host) {
-  host.alive = false;
-  if (host.left) host.differences = 0;
-  say(host.left ? log::info : log::warning, host.left ? NoteKind::restart : NoteKind::loss,
-      "host " + host.view.name + (host.left ? " has left" : " is no longer heard"));
-  update_views();
-}
-
 // A host that is heard for the first time, again after silence, or with a new gateway.
 void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns) {
   const bool was_alive = std::exchange(host.alive, true);
@@ -145,31 +134,6 @@ void Hosts::report_differences(Host& host, std::int64_t now_ns) {
          other + " has another configuration; start both with the same --config");
   report(host, databuffer::kHostOtherTerrain, differ(identity_.terrain_hash, said.terrain_hash),
          other + " has another terrain; start both with the same --terrain");
-}
-
-// Says a difference once while it lasts.
-void Hosts::report(Host& host, std::uint32_t flag, bool differs, const std::string& line) {
-  const bool was_said = (host.differences & flag) != 0;
-  host.differences = differs ? host.differences | flag : host.differences & ~flag;
-  if (differs && !was_said) say(log::warning, NoteKind::refusal, line);
-}
-
-// Another process announces itself with the name of this host.
-void Hosts::hear_own_name(std::uint64_t start, std::int64_t now_ns) {
-  if (start == identity_.start) return;
-  own_name_.hear(identity_.start, now_ns);
-  own_name_.hear(start, now_ns);
-  if (own_name_.is_news(now_ns))
-    say(log::error, NoteKind::refusal,
-        "another host is also called " + identity_.name + "; give each host a `name` of its own");
-}
-
-void Hosts::announce(std::int64_t now_ns) {
-  if (!announcements_.is_due(std::exchange(changed_, false), now_ns)) return;
-  stamp(own_);
-  own_.monotonic_ns = now_ns;
-  own_.group = self().group;
-  if (link_ != nullptr) link_->write(own_);
 }
 
 void Hosts::ask(std::int64_t now_ns) {
@@ -224,20 +188,6 @@ void Hosts::update_group(std::int64_t now_ns) {
   if (in_conflict_) return;
   const bool is_old = group_sizes_.front().first <= now_ns - kGroupDelay_ns;
   views_.front().group = is_old ? group_sizes_.front().second : 1;
-}
-
-std::optional<std::int64_t> Hosts::offset_ns(std::uint64_t id) const {
-  if (id == self().id) return 0;
-  const Host* host = host_of(id);
-  if (host == nullptr || host->offset.count() < kEnoughAnswers) return std::nullopt;
-  return host->offset.best()->offset_ns;
-}
-
-void Hosts::refuse(std::uint64_t id, dds::Topic topic, const std::string& reason) {
-  Host* host = host_of(id, false);
-  if (host != nullptr) ++host->refused;
-  session_->note(NoteKind::refusal, (host == nullptr ? "unknown host" : "host " + host->view.name) + ", " +
-                                        std::string(settings_of(topic).name) + ": " + reason);
 }
 
 void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const {

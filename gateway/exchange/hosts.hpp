@@ -22,6 +22,7 @@
 #include "gateway/host_id.hpp"
 #include "gateway/pace.hpp"
 #include "gateway/sample_numbers.hpp"
+#include "lib/log/log.hpp"
 
 namespace yars::gateway {
 
@@ -109,7 +110,12 @@ class Hosts {
   }
 
   // Offset of a host's clock; nullopt: not measured yet. 0 for this host.
-  std::optional<std::int64_t> offset_ns(std::uint64_t id) const;
+  std::optional<std::int64_t> offset_ns(std::uint64_t id) const {
+    if (id == self().id) return 0;
+    const Host* host = host_of(id);
+    if (host == nullptr || host->offset.count() < kEnoughAnswers) return std::nullopt;
+    return host->offset.best()->offset_ns;
+  }
   // The last announcement of another host; all 0: unknown.
   const yars_net_HostSample& said_by(std::uint64_t id) const {
     static constexpr yars_net_HostSample kNothing{};
@@ -153,7 +159,12 @@ class Hosts {
   void refuse(const Sample& sample, const std::string& reason) {
     refuse(sample.host, dds::kTopicOf<Sample>, reason);
   }
-  void refuse(std::uint64_t host, dds::Topic topic, const std::string& reason);
+  void refuse(std::uint64_t id, dds::Topic topic, const std::string& reason) {
+    Host* host = host_of(id, false);
+    if (host != nullptr) ++host->refused;
+    session_->note(databuffer::NoteKind::refusal, (host == nullptr ? "unknown host" : "host " + host->view.name) +
+                                                      ", " + std::string(settings_of(topic).name) + ": " + reason);
+  }
   // Writes a line to the log, by log::info or another level, and to the flight recorder.
   void say(void (*log)(std::string_view), databuffer::NoteKind kind, const std::string& line) const {
     log(line);
@@ -163,6 +174,8 @@ class Hosts {
   void describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const;
 
  private:
+  // Of a few answers one was on the way without a queue. A first offset by one answer was wrong by 50 ms on a bad line.
+  static constexpr std::size_t kEnoughAnswers = 6;
   struct Host {
     HostView view;
     yars_net_HostSample said{};
@@ -183,16 +196,41 @@ class Hosts {
     const auto found = std::ranges::find(hosts_, id, [](const Host& host) { return host.view.id; });
     return found == hosts_.end() ? nullptr : &*found;
   }
-  void lose(Host& host);
+  void lose(Host& host) {
+    host.alive = false;
+    if (host.left) host.differences = 0;
+    say(host.left ? log::info : log::warning, host.left ? databuffer::NoteKind::restart : databuffer::NoteKind::loss,
+        "host " + host.view.name + (host.left ? " has left" : " is no longer heard"));
+    update_views();
+  }
   void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);
   // A process that another one with its name seemed to have replaced is the one that goes on.
   static void readmit(Host& host, std::uint64_t start) {
     for (SampleNumbers& numbers : host.numbers) numbers.readmit(start);
   }
   void report_differences(Host& host, std::int64_t now_ns);
-  void report(Host& host, std::uint32_t flag, bool differs, const std::string& line);
-  void hear_own_name(std::uint64_t start, std::int64_t now_ns);
-  void announce(std::int64_t now_ns);
+  // Says a difference once while it lasts.
+  void report(Host& host, std::uint32_t flag, bool differs, const std::string& line) {
+    const bool was_said = (host.differences & flag) != 0;
+    host.differences = differs ? host.differences | flag : host.differences & ~flag;
+    if (differs && !was_said) say(log::warning, databuffer::NoteKind::refusal, line);
+  }
+  // Another process announces itself with the name of this host.
+  void hear_own_name(std::uint64_t start, std::int64_t now_ns) {
+    if (start == identity_.start) return;
+    own_name_.hear(identity_.start, now_ns);
+    own_name_.hear(start, now_ns);
+    if (own_name_.is_news(now_ns))
+      say(log::error, databuffer::NoteKind::refusal,
+          "another host is also called " + identity_.name + "; give each host a `name` of its own");
+  }
+  void announce(std::int64_t now_ns) {
+    if (!announcements_.is_due(std::exchange(changed_, false), now_ns)) return;
+    stamp(own_);
+    own_.monotonic_ns = now_ns;
+    own_.group = self().group;
+    if (link_ != nullptr) link_->write(own_);
+  }
   void ask(std::int64_t now_ns);
   void update_views() {
     views_.resize(1);
