@@ -10,7 +10,6 @@
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
 #include "gateway/checks/network_check.hpp"
-#include "gateway/dds/domain_configuration.hpp"
 #include "gateway/exchange/clock_exchange.hpp"
 #include "gateway/exchange/event_exchange.hpp"
 #include "gateway/exchange/history_exchange.hpp"
@@ -249,8 +248,7 @@ std::uint64_t segment_number(databuffer::Session& session) {
   return number.load();
 }
 
-// Compares the settings with this computer and its identity. Leaves only the peers that can be asked. Output: those of
-// other computers.
+// Checks the settings, and leaves only the peers that can be asked. Output: those of other computers.
 error::Expected<std::vector<std::string>> check(radar::NetworkSettings& settings) {
   auto computer = checks::check_computer(settings);
   if (!computer) return tl::unexpected(computer.error());
@@ -303,12 +301,9 @@ error::Expected<void> run(const runtime::ProgramOptions& options, const std::str
     log::info(loaded->source.empty() ? "no form Network: this computer alone, over the loopback interface"
                                      : "form Network of " + loaded->source);
   if (!terrain.empty()) configuration.terrain.directory = terrain;
-  const Identity identity{settings.name,
-                          static_cast<std::uint32_t>(settings.priority),
-                          0,
-                          0,
-                          configuration_hash(configuration),
-                          terrain_hash(configuration.terrain.directory)};
+  Identity identity{settings.name, static_cast<std::uint32_t>(settings.priority)};
+  identity.configuration_hash = configuration_hash(configuration);
+  identity.terrain_hash = terrain_hash(configuration.terrain.directory);
   Joining joining{std::move(settings), std::move(*peers), identity};
   error::Expected<bool> again = true;
   while (again && *again) again = join(options, joining);

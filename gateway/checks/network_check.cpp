@@ -64,8 +64,7 @@ std::vector<Interface> interfaces_here() {
     if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
     found.address = address_in(entry->ifa_addr);
     if ((entry->ifa_flags & IFF_BROADCAST) == 0 || entry->ifa_netmask == nullptr) continue;
-    // The last address of a network of four addresses or more. The system's own is 0 or the host's address where none
-    // is set.
+    // Of a network of four addresses or more. The system's own is 0 or the host's address where none is set.
     const Address last_host = ~address_in(entry->ifa_netmask);
     if (last_host >= 3) found.broadcast = *found.address | last_host;
   }

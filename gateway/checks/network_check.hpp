@@ -4,10 +4,8 @@
 //   of slot `security` with key.pem, certificate.pem, identity_ca.pem, permissions_ca.pem, permissions.p7s and
 //   governance.p7s. They are trusted as little as any file: regular files of at most 1 MiB.
 // Outputs: warnings, one line each; the peers that have an address; those of other computers.
-// Errors: an interface that this computer does not have, or that has no IPv4 address; a peer that is a broadcast
-//   address of this computer's networks. A file that is missing or unreadable; a key of another certificate; a
-//   certificate that identity_ca.pem has not signed or that is not valid now; documents that permissions_ca.pem has not
-//   signed; a certificate or permissions of another host.
+// Errors: an interface that is not here, or has no IPv4 address; a peer that is a broadcast address of a network here;
+//   files that are missing or unreadable, of another host, not signed by the authority beside them, or not valid now.
 // The name service may answer after seconds.
 // Source: OMG DDS Security 1.1, sections 9.3 and 9.4; libcrypto of OpenSSL 3.
 #pragma once

@@ -5,9 +5,9 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <mutex>
 
-#include "gateway/dds/domain_configuration.hpp"
 #include "gateway/message_limit.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -36,6 +36,55 @@ std::vector<std::string> taken_messages(std::int64_t now_ns) {
   const std::lock_guard guard(messages.mutex);
   messages.now_ns = std::max(messages.now_ns, now_ns);
   return messages.limit.take("Cyclone DDS", messages.now_ns);
+}
+
+// Repairs of lost packets start after a few ms, so that sweeps arrive within 0.15 s on a line that loses 1 %. The
+// watermarks hold what a host that is cut off for 1 s has missed. With the default, 30 kB, they throttle the sweeps.
+constexpr const char* kInternal =
+    "<Internal><Watermarks><WhcAdaptive>false</WhcAdaptive><WhcHighInit>8MB</WhcHighInit><WhcHigh>8MB</WhcHigh>"
+    "<WhcLow>1MB</WhcLow></Watermarks>"
+    "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"1s\">20ms</HeartbeatInterval>"
+    "<NackDelay>10ms</NackDelay><AckDelay>5ms</AckDelay></Internal>";
+
+std::string plugin(const std::string& element, const std::string& name, const std::string& function) {
+  return "<" + element + "><Library initFunction=\"init_" + function + "\" finalizeFunction=\"finalize_" + function +
+         "\" path=\"dds_security_" + name + "\"/>";
+}
+
+std::string security(const std::filesystem::path& folder) {
+  std::string place;  // the folder, with the characters that have a meaning in XML replaced
+  for (const char letter : folder.string())
+    place += letter == '&' ? "&amp;" : letter == '<' ? "&lt;" : std::string(1, letter);
+  const auto file = [&place](const std::string& element, const std::string& name) {
+    return "<" + element + ">file:" + place + "/" + name + "</" + element + ">";
+  };
+  return "<Security>" + plugin("Authentication", "auth", "authentication") + file("IdentityCA", "identity_ca.pem") +
+         file("IdentityCertificate", "certificate.pem") + file("PrivateKey", "key.pem") + "</Authentication>" +
+         plugin("AccessControl", "ac", "access_control") + file("PermissionsCA", "permissions_ca.pem") +
+         file("Governance", "governance.p7s") + file("Permissions", "permissions.p7s") + "</AccessControl>" +
+         plugin("Cryptographic", "crypto", "crypto") + "</Cryptographic></Security>";
+}
+
+// XML text for dds_create_domain(). Multicast and shared memory are off; hosts find each other by the listed addresses.
+// The form's texts are checked (config/schema), so that none can break the XML.
+// Source: Eclipse Cyclone DDS 0.10, "Configuration guide"; docs/network.md has the reason of each value.
+std::string domain_configuration(const radar::NetworkSettings& settings) {
+  constexpr int kFragmentHeaders_bytes = 100;
+  std::string text = "<CycloneDDS><Domain Id=\"any\"><General><Interfaces>";
+  for (const std::string& name : settings.interfaces)
+    text += "<NetworkInterface name=\"" + name + "\" multicast=\"false\"/>";
+  text += "</Interfaces><AllowMulticast>false</AllowMulticast><MaxMessageSize>" +
+          std::to_string(settings.max_message_bytes) + "B</MaxMessageSize><FragmentSize>" +
+          std::to_string(settings.max_message_bytes - kFragmentHeaders_bytes) +
+          "B</FragmentSize></General><Discovery>" +
+          "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" + std::to_string(settings.participants) +
+          "</MaxAutoParticipantIndex><Peers>";
+  for (const std::string& peer : settings.peers) text += "<Peer Address=\"" + peer + "\"/>";
+  text += "</Peers><LeaseDuration>1000ms</LeaseDuration><SPDPInterval>200ms</SPDPInterval></Discovery>";
+  text += kInternal;
+  text += "<SharedMemory><Enable>false</Enable></SharedMemory>";
+  if (!settings.security.empty()) text += security(settings.security);
+  return text + "</Domain></CycloneDDS>";
 }
 
 using Qos = std::unique_ptr<dds_qos_t, decltype([](dds_qos_t* qos) { dds_delete_qos(qos); })>;
@@ -167,17 +216,6 @@ void Link::State::renew_flooded_reader(Topic topic) {
   at(topic).reader = open_reader(topic);
 }
 
-// A message for the first sample, the 10th, the 100th, ...
-void Link::State::report_refused(Topic topic) {
-  TopicState& state = at(topic);
-  const std::uint64_t refused = state.quota.refused();
-  if (refused < state.next_report) return;
-  while (state.next_report <= refused) state.next_report *= 10;
-  add_message("topic " + std::string(settings_of(topic).name) + ": expected at most " +
-              std::to_string(settings_of(topic).instances) + " instances of a writer, found more; " +
-              std::to_string(refused) + " samples left out so far; another program writes there");
-}
-
 bool Link::State::is_from(Topic topic, dds_instance_handle_t writer, std::uint64_t host) {
   if (!is_secured() || (host != 0 && senders.host_of(at(topic).reader, writer) == host)) return true;
   if (at(topic).posed++ == 0)
@@ -242,7 +280,12 @@ bool Link::is_acknowledged() const {
 }
 
 std::vector<std::string> Link::take_messages(std::int64_t now_ns) {
-  for (std::size_t i = 0; i < kTopicCount; ++i) state_->report_refused(static_cast<Topic>(i));
+  for (TopicState& topic : state_->topics) {
+    const std::uint64_t refused = topic.quota.refused();
+    if (std::exchange(topic.refused, refused) == refused) continue;
+    add_message("topic " + std::string(text::text_of(topic.counts.name)) +
+                ": expected fewer instances of a writer, found more; they are left out; another program writes there");
+  }
   return taken_messages(now_ns);
 }
 

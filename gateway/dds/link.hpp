@@ -2,8 +2,7 @@
 // Inputs: the form Network; samples, as structures of yars_network.h.
 // Outputs: samples of other processes; counts of samples and bytes.
 // Errors: open(): an interface that does not exist, a configuration that Cyclone DDS refuses, unreadable identities.
-//   Messages of Cyclone DDS are kept for take_messages(). Samples of a writer beyond its number of instances
-//   (TopicSettings) are left out, with a message.
+//   Samples of a writer beyond its number of instances (TopicSettings) are left out, with a message.
 // Threads: one. Cyclone DDS has threads of its own.
 // Source: Eclipse Cyclone DDS 0.10, C API.
 #pragma once
@@ -24,10 +23,14 @@
 
 namespace yars::gateway::dds {
 
+// First UDP port of a DDS domain; those of its participants begin 10 ports later (DDSI-RTPS 2.2, section 9.6.1).
+constexpr int first_port(int domain) {
+  return 7400 + 250 * domain;
+}
+
 class Link {
  public:
-  // `session`: name of the session, which is the DDS partition.
-  // `settings.name`: of this host, not empty.
+  // `session`: its name, which is the DDS partition. `settings.name`: of this host, not empty.
   static error::Expected<Link> open(const radar::NetworkSettings& settings, const std::string& session);
 
   // True if the form Network and the permissions of DDS Security let the topic out, or in.
@@ -78,8 +81,7 @@ class Link {
   bool is_acknowledged() const;
 
   const databuffer::TopicStatus& counts(Topic topic) const { return state_->at(topic).counts; }
-  // Messages of Cyclone DDS since the last call: at most some lines a second, and a count of those left out. Call it
-  // about twice a second. `now_ns`: CLOCK_MONOTONIC.
+  // Messages of Cyclone DDS since the last call (MessageLimit). Call it about twice a second.
   std::vector<std::string> take_messages(std::int64_t now_ns);
   Participants& participants() { return state_->others; }  // that exchange nothing with this one
 
@@ -94,9 +96,9 @@ class Link {
     explicit TopicState(Topic topic);
     dds_entity_t topic = 0, reader = 0, writer = 0;
     databuffer::TopicStatus counts{};
-    std::uint64_t posed = 0;        // samples that named another host than their writer's
-    InstanceQuota quota;            // of the reader
-    std::uint64_t next_report = 1;  // number of refused samples that is worth a message
+    std::uint64_t posed = 0;    // samples that named another host than their writer's
+    InstanceQuota quota;        // of the reader
+    std::uint64_t refused = 0;  // by the quota, at the last message
   };
   struct State {
     explicit State(const radar::NetworkSettings& settings);
@@ -107,7 +109,6 @@ class Link {
     dds_entity_t open_reader(Topic topic);  // negative: an error of Cyclone DDS
     void renew_flooded_reader(Topic topic);
     void update_senders();
-    void report_refused(Topic topic);
     // True if the sample's writer is the host that the sample names, or may be.
     bool is_from(Topic topic, dds_instance_handle_t writer, std::uint64_t host);
     bool is_secured() const { return !settings.security.empty(); }

@@ -94,10 +94,9 @@ class Participants {
     return remarks;
   }
 
-  // With security: the name of a gateway with which this one should try the handshake of DDS Security again, by a
-  // participant of its own that is new; empty: none. Cyclone DDS 0.10 can lose a handshake for good on a line that
-  // loses messages (eclipse-cyclonedds/cyclonedds, issue 1895). Of two gateways the one with the greater GUID is told
-  // so. Each participant is named once.
+  // With security: the name of a gateway with which this one should try the handshake again, by a new participant of
+  // its own; empty: none. Cyclone DDS 0.10 can lose a handshake for good on a line that loses messages (issue 1895). Of
+  // two gateways the one with the greater GUID tries. Each participant is named once.
   std::string take_lost_handshake(std::int64_t now_ns) {
     for (auto& [key, other] : others_) {
       const bool is_lost = secured_ && is_apart(other) && other.session.empty() && key < self_;

@@ -2,9 +2,7 @@
 // Inputs: the local segment's clock; clocks and requests of other hosts; measured offsets.
 // Outputs: on the owner, the clock as a sample, and requested changes applied; on the others, the owner's clock in the
 //   local segment, translated by the offset and slewed, and local changes as requests.
-// Errors: sim time on two hosts differs by at most the error of the offset, half of the least round trip, plus 50 us,
-//   as soon as a greater error is slewed. A change of the clock (freeze, rate, step, reset) reaches the others one
-//   transmission later.
+// Errors: sim time on two hosts differs by at most the error of the offset plus 50 us, once a greater error is slewed.
 // Source: docs/network.md#time.
 #pragma once
 
@@ -34,8 +32,7 @@ class ClockExchange {
   }
 
   void receive(Context& context, const yars_net_ClockSample& sample) {
-    if (context.hosts.is_new(sample) && context.valid<ClockState>(sample, sample.clock))
-      clocks_.keep(context.hosts, sample);
+    if (context.new_and_valid<ClockState>(sample, sample.clock)) clocks_.keep(context.hosts, sample);
   }
 
   // Applies a change that another host asks for. Each request is applied once.
@@ -186,7 +183,7 @@ class ClockExchange {
 
   // The aircraft stays where it is: flight models go on from the ownship in use.
   void raise_epoch(Context& context, std::uint32_t above) {
-    const auto model = databuffer::read_valid(std::as_const(context.session).layout().model_status);
+    const auto model = databuffer::read_valid(context.layout().model_status);
     const bool has_ownship = model && (model->flags & databuffer::kModelStale) == 0;
     const auto raised = context.session.change_clock([&](const ClockState& clock) {
       ClockState next = databuffer::rebased(clock, databuffer::monotonic_ns());
@@ -246,9 +243,8 @@ class ClockExchange {
     return measured_ns + static_cast<std::int64_t>(static_cast<double>(ahead_ns) / mine.rate);
   }
 
-  // Writes the owner's clock to the local segment, with its base at the present time. A change that a program of this
-  // host has made since the beginning of this pass stays; the next pass forwards it. `first`: what stands there is not
-  // followed.
+  // Writes the owner's clock to the local segment, with its base at the present time. A local change since the
+  // beginning of this pass stays; the next pass forwards it. `first`: what stands there is not followed.
   void adopt(Context& context, bool first) {
     const std::int64_t now_ns = databuffer::monotonic_ns();
     ClockState mine = followed_->theirs;

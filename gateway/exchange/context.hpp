@@ -48,6 +48,8 @@ struct Context {
   std::int64_t now_ns = 0;  // CLOCK_MONOTONIC at the start of the pass
   bool lockstep = false;    // the session runs in lockstep: every tick is exchanged
 
+  const databuffer::SessionLayout& layout() const { return std::as_const(session).layout(); }
+  std::uint64_t segment() const { return hosts.identity().segment; }  // of this host
   // An empty sample with the host, start and number of this host.
   template <class Sample>
   Sample made() {
@@ -76,6 +78,11 @@ struct Context {
     if (!reason) return record;
     hosts.refuse(sample, *reason);
     return std::nullopt;
+  }
+  // The same; nullopt also: the sample has arrived before.
+  template <class Record, class Sample, class Field>
+  std::optional<Record> new_and_valid(const Sample& sample, const Field& field) {
+    return hosts.is_new(sample) ? valid<Record>(sample, field) : std::nullopt;
   }
 };
 
@@ -116,6 +123,10 @@ struct RemoteName {
   std::uint64_t host = 0;
   std::uint32_t lane = 0;
   bool operator==(const RemoteName&) const = default;
+  void write_to(std::uint64_t& host_field, std::uint32_t& lane_field) const {
+    host_field = host;
+    lane_field = lane;
+  }
 };
 
 // Lanes of the local segment that this gateway fills for other hosts, and the names of these lanes on their own hosts.

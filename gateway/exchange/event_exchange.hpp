@@ -1,9 +1,7 @@
 // Input events on their way to the host of the state machine, each delivered once; and the events that it applied.
-// Inputs: the local input lanes while the state machine runs on another host; events, receipts and applied events of
-//   other hosts.
+// Inputs: the local input lanes while the state machine runs on another host; samples of other hosts.
 // Outputs: each waiting event as a sample until its receipt arrives; events of other hosts in local input lanes, one
 //   for each remote lane; the ring of applied events on every host.
-// Units: CLOCK_MONOTONIC times of other hosts are translated by the measured offset.
 // Errors: an invalid event is refused, counted and noted, and its receipt is given all the same. Without a free
 //   input lane the events wait on their host.
 // Source: docs/network.md#each-event-once.
@@ -25,7 +23,11 @@ class EventExchange {
   explicit EventExchange(LaneNames& lanes) : lanes_(&lanes) {}
   void send(Context& context) {
     const auto machine = context.roles.source(Role::state_machine);
-    update_term(context);
+    // Events that were sent to an earlier term may arrive after a partition, from the history that DDS keeps. By then
+    // their host has sent them to another state machine, or again to this one.
+    const bool here = context.roles.exports(Role::state_machine);
+    if (here != (context.hosts.machine_term() != 0))
+      context.hosts.set_machine_term(here ? context.hosts.identity().start + ++terms_ : 0);
     if (machine) drop_remote_events(context);
     if (machine && context.writes(dds::Topic::input_events))
       for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) send_waiting(context, lane, *machine);
@@ -33,9 +35,7 @@ class EventExchange {
     send_receipts(context);
     applied_.send(context, [this](auto& sample, const auto& applied) {
       copy_record(sample.applied, applied);
-      const RemoteName name = lanes_->input_name(applied.lane, sample.host);
-      sample.sender = name.host;
-      sample.applied.lane = name.lane;
+      lanes_->input_name(applied.lane, sample.host).write_to(sample.sender, sample.applied.lane);
     });
   }
 
@@ -44,7 +44,7 @@ class EventExchange {
     // Applied events wait in DDS until it is known which host has the state machine, and until their age can be judged.
     const auto holder = context.roles.holder(Role::state_machine);
     const auto newest = [&context] {
-      const auto outputs = databuffer::read_valid(std::as_const(context.session).layout().outputs);
+      const auto outputs = databuffer::read_valid(context.layout().outputs);
       return outputs ? std::optional(outputs->tick) : std::nullopt;
     };
     if (holder ? may_begin(context, dds::Topic::applied_events, *holder, newest) : is_last_tick(context))
@@ -72,7 +72,7 @@ class EventExchange {
   void receive(Context& context, const yars_net_EventReceiptSample& sample) {
     if (!context.hosts.is_new(sample)) return;
     const std::uint64_t self = context.hosts.self().id;
-    if (sample.sender != self || sample.segment != context.hosts.identity().segment || sample.lane >= sending_.size() ||
+    if (sample.sender != self || sample.segment != context.segment() || sample.lane >= sending_.size() ||
         context.roles.source(Role::state_machine) != sample.host)
       return;
     auto& input = context.session.layout().input;
@@ -127,14 +127,6 @@ class EventExchange {
     std::int64_t heard_ns = 0;
   };
 
-  // Events that were sent to an earlier term may arrive after a partition, from the history that DDS keeps. By then
-  // their host has sent them to another state machine, or again to this one.
-  void update_term(Context& context) {
-    const bool here = context.roles.exports(Role::state_machine);
-    if (here == (context.hosts.machine_term() != 0)) return;
-    context.hosts.set_machine_term(here ? context.hosts.identity().start + ++terms_ : 0);
-  }
-
   // Events of other hosts that the state machine of this host has not taken before it yielded. They have no receipt, so
   // that their hosts send them to the state machine that stays.
   void drop_remote_events(Context& context) {
@@ -146,8 +138,7 @@ class EventExchange {
       // A local source claims a lane only when it is empty. So a lane with a remote event at its end has no others.
       const std::uint64_t pushed = layout.input.pushed(lane);
       if (!ends_with(progress, pushed)) continue;
-      // If the role comes back, they are taken again. An entry that is too low is harmless: the sender names its
-      // oldest.
+      // If the role comes back, they are taken again. A low entry is harmless: the sender names its oldest.
       const std::uint64_t waiting = pushed - layout.input.popped(lane);
       entry.progress.store(progress_of(next_of(progress, pushed, progress >> 32) - waiting, pushed - 1, lane));
       databuffer::InputEvent event{};
@@ -179,7 +170,7 @@ class EventExchange {
       if (!input.peek_at(lane, sending.next, event)) return;
       auto sample = context.made<yars_net_InputEventSample>();
       sample.lane = static_cast<std::uint32_t>(lane);
-      sample.segment = context.hosts.identity().segment;
+      sample.segment = context.segment();
       sample.event_number = sending.next;
       sample.preceding = static_cast<std::uint32_t>(sending.next - popped);
       sample.machine_term = term;
@@ -197,7 +188,7 @@ class EventExchange {
     if (receiving_.size() >= kMaxRemoteLanes) return nullptr;
     Receiving receiving{sample.host, sample.lane, sample.segment};
     // An entry of this gateway's predecessor says what has been delivered. Without one this is the first event.
-    const auto& layout = std::as_const(context.session).layout();
+    const auto& layout = context.layout();
     if (const auto* entry = find_entry(layout.network.input, id)) {
       const std::uint64_t progress = entry->progress.load();
       const std::size_t lane = lane_of(progress);
@@ -209,8 +200,7 @@ class EventExchange {
     return &receiving_.emplace(id, std::move(receiving)).first->second;
   }
 
-  // Claims a local input lane and enters the remote lane's progress there: all events before the sample's are
-  // delivered.
+  // Claims a local input lane. All events before the sample's are delivered.
   bool take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
     std::string source(text::text_of(sample.source));
     std::ranges::replace_if(source, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
@@ -256,7 +246,7 @@ class EventExchange {
 
   // An event has its receipt when the state machine has taken it from the lane.
   void send_receipts(Context& context) {
-    const auto& input = std::as_const(context.session).layout().input;
+    const auto& input = context.layout().input;
     for (auto& [id, receiving] : receiving_) {
       const std::uint64_t waiting =
           receiving.local_lane ? input.pushed(*receiving.local_lane) - input.popped(*receiving.local_lane) : 0;
@@ -273,8 +263,8 @@ class EventExchange {
     }
   }
 
-  // Releases all remote lanes when the state machine no longer runs here, and lanes that have been silent. A lane of a
-  // host that has left, or of an earlier segment there, is forgotten.
+  // Releases silent lanes, and all when the state machine runs elsewhere. Those of hosts that have left, and of earlier
+  // segments, are forgotten.
   void release_lanes(Context& context) {
     const bool here = context.roles.exports(Role::state_machine);
     for (auto item = receiving_.begin(); item != receiving_.end();) {
@@ -294,8 +284,7 @@ class EventExchange {
     }
   }
 
-  // An event that is seen as applied needs no receipt. So it is not sent to another host if that host takes the role
-  // now.
+  // An event that is seen as applied needs no receipt, so that no other host gets it if that one takes the role now.
   void pop_applied(Context& context, const databuffer::AppliedEvent& applied) {
     auto& input = context.session.layout().input;
     databuffer::InputEvent oldest{};

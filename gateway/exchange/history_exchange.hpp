@@ -3,9 +3,9 @@
 // Inputs: rings of the local segment while the radar model runs here; samples of the host where it runs.
 // Outputs: a sample for each record; the records in the local rings: traffic and world before the tick that names them,
 //   a tick before its sweep.
-// Errors: an invalid record, a sweep whose hash is wrong, a sim time that is not that of the tick, and a tick that goes
-//   back are refused, counted and noted. Records of an earlier epoch are left out. Lost samples are counted by their
-//   numbers.
+// Errors: an invalid record, a wrong hash or sim time, and a tick that goes back are refused, counted and noted.
+// Records
+//   of an earlier epoch are left out.
 #pragma once
 
 #include <deque>
@@ -27,9 +27,7 @@ class HistoryExchange {
     });
     tick_history_.send(context, [this](auto& sample, const auto& tick) {
       copy_record(sample.tick, tick);
-      const RemoteName name = lanes_->ownship_name(tick.ownship_lane, sample.host);
-      sample.ownship_host = name.host;
-      sample.tick.ownship_lane = name.lane;
+      lanes_->ownship_name(tick.ownship_lane, sample.host).write_to(sample.ownship_host, sample.tick.ownship_lane);
     });
     sweep_history_.send(context, [](auto& sample, auto& sweep) {
       static_assert(sizeof sample.sweep == kSweepHeader_bytes);
@@ -39,12 +37,11 @@ class HistoryExchange {
     });
   }
 
-  // Samples wait in DDS until it is known which host has the radar model, until this gateway mirrors it, and until
-  // their age can be judged. At the end of a lockstep run they are taken also without a holder: a last done tick waits
-  // for them.
+  // Samples wait in DDS until knows_model() and may_begin(). At the end of a lockstep run they are taken also without a
+  // holder: a last done tick waits for them.
   void receive(Context& context) {
     const auto newest = [&context] {
-      const auto status = databuffer::read_valid(std::as_const(context.session).layout().model_status);
+      const auto status = databuffer::read_valid(context.layout().model_status);
       return status ? std::optional(status->tick) : std::nullopt;
     };
     const auto holder = context.roles.holder(Role::radar_model);

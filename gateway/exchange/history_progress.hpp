@@ -14,8 +14,8 @@ namespace yars::gateway {
 inline constexpr std::array kHistories{dds::Topic::applied_events, dds::Topic::traffic_latched, dds::Topic::model_ticks,
                                        dds::Topic::sweeps};
 
-// [ns] sim time. A host that hears a history for the first time begins with records of this age. Without a limit its
-// recorder would take the last 5 s of the session for new.
+// [ns] sim time. A host that hears a history for the first time takes no older records: its recorder would take them
+// for new.
 inline constexpr std::int64_t kMaxFirstAge_ns = 500'000'000;
 
 // True once the records of a history of another host may be taken. `newest()`: tick of the state that the host last
@@ -71,7 +71,7 @@ inline bool knows_model(const Context& context) {
 
 // True in the last tick of a lockstep run. A role whose process has ended by then has been heard by all roles.
 inline bool is_last_tick(const Context& context) {
-  const auto& lockstep = std::as_const(context.session).layout().lockstep;
+  const auto& lockstep = context.layout().lockstep;
   const std::int64_t end_tick = lockstep.end_tick.load(std::memory_order_relaxed);
   return context.lockstep && end_tick >= 0 &&
          std::ranges::any_of(lockstep.done_tick, [end_tick](const auto& tick) { return tick.load() >= end_tick; });
@@ -89,7 +89,7 @@ class History {
   // what follows host, start and number.
   template <class Fill>
   void send(Context& context, const Fill& fill) {
-    const auto& layout = std::as_const(context.session).layout();
+    const auto& layout = context.layout();
     const auto& ring = layout.*kRing;
     const std::uint64_t next = ring.next();
     if (!context.roles.exports(kRole)) {
@@ -102,7 +102,7 @@ class History {
     Record record{};
     while (ring.read(*cursor_, record).delivered) {
       sample.host = context.hosts.self().id;
-      sample.start = context.hosts.identity().segment;
+      sample.start = context.segment();
       sample.number = *cursor_ - 1;
       fill(sample, record);
       context.write(sample);
@@ -114,7 +114,7 @@ class History {
   // not from before this host joined. `tick`: of the record. A sample of another host counts as taken.
   bool is_wanted(Context& context, const Sample& sample, std::int64_t tick) const {
     const std::uint64_t source = source_id({sample.host, sample.start});
-    const auto& layout = std::as_const(context.session).layout();
+    const auto& layout = context.layout();
     if (!context.hosts.numbers(kTopic, sample.host).knows(sample.start)) {
       if (const auto* entry = find_entry(layout.network.histories[kIndex], source))
         context.hosts.resume(kTopic, sample.host, sample.start,

@@ -2,8 +2,7 @@
 // Inputs: samples of the topics hosts and probes.
 // Outputs: this host's announcements and probes; the hosts that are heard; whether a sample is new.
 // Units: times [ns], CLOCK_MONOTONIC of this host unless stated.
-// Errors: an announcement with damaged texts or numbers is refused. Differences between hosts (layout, configuration,
-//   terrain, equal names) are said in one line each, by both hosts.
+// Errors: a damaged announcement is refused. Differences between hosts are said in one line each, by both hosts.
 #pragma once
 
 #include <algorithm>
@@ -42,12 +41,10 @@ constexpr std::uint32_t bit_of(Enum value) {
   return 1U << static_cast<unsigned>(value);
 }
 
-// [ns] A host that has not announced itself for so long is lost: five announcements. With a shorter time a loaded
-// machine would lose its hosts. With a longer one a dead host would keep its roles.
+// [ns] Silence after which a host is lost: five announcements. With a shorter time a loaded machine would lose hosts.
 inline constexpr std::int64_t kLease_ns = 500'000'000;
 
-// Roles whose records reach the other hosts in topics that may be written, as writes(topic) says. Bit n: role n. Who
-// cannot write one of them does not have the role.
+// Roles all topics of which may be written, as writes(topic) says. Bit n: role n. A host has no other roles.
 template <class Writes>
 std::uint32_t writable_roles(const Writes& writes) {
   using enum dds::Topic;

@@ -3,7 +3,6 @@
 // Outputs: done ticks in the local segment, after everything has arrived here that the role, and the roles before it,
 //   published in the tick. Network::lost_role: a role whose host has been gone for 10 s before the end of the run.
 // Errors: a done tick that goes back, or is out of range, is refused. A host whose run has another end is named once.
-// Threads: wakes the roles that wait on the futexes of the segment.
 // Source: docs/architecture.md#time; TickLoop (runtime/tick_loop.hpp).
 #pragma once
 
@@ -18,7 +17,7 @@ class LockstepExchange {
   LockstepExchange() { known_.fill(-1); }
   // Reads the done ticks before the records of the tick are sent.
   void begin_pass(Context& context) {
-    const auto& lockstep = std::as_const(context.session).layout().lockstep;
+    const auto& lockstep = context.layout().lockstep;
     for (std::size_t role = 0; role < done_.size(); ++role)
       done_[role] = lockstep.done_tick[role].load(std::memory_order_acquire);
   }
@@ -32,7 +31,7 @@ class LockstepExchange {
       auto sample = context.made<yars_net_LockstepSample>();
       sample.role = static_cast<std::uint32_t>(role);
       sample.done_tick = done_[role];
-      sample.end = end_word(std::as_const(context.session).layout().lockstep);
+      sample.end = end_word(context.layout().lockstep);
       for (std::size_t i = 0; i < dds::kTopicCount; ++i)
         if (context.writes(static_cast<dds::Topic>(i))) sample.written[i] = context.hosts.written()[i];
       context.write(sample);
@@ -77,7 +76,7 @@ class LockstepExchange {
 
   // Index of a host in the NetworkStatus that this gateway publishes; 0: not there.
   static std::uint32_t status_index(const Context& context, std::uint64_t host) {
-    const auto status = databuffer::read_valid(std::as_const(context.session).layout().network_status);
+    const auto status = databuffer::read_valid(context.layout().network_status);
     for (std::uint32_t i = 1; status && i < status->host_count; ++i)
       if (host_id(text::text_of(status->hosts[i].name)) == host) return i;
     return 0;
@@ -106,7 +105,7 @@ class LockstepExchange {
 
   // Says once for each host that its run has another end.
   static void compare_end(const Context& context, Partner& partner, const yars_net_LockstepSample& sample) {
-    const std::uint32_t own = end_word(std::as_const(context.session).layout().lockstep);
+    const std::uint32_t own = end_word(context.layout().lockstep);
     const HostView* host = context.hosts.find(sample.host);
     if (sample.end == own) partner.has_other_end = false;
     if (host == nullptr || sample.end == 0 || sample.end == own || std::exchange(partner.has_other_end, true)) return;
@@ -134,7 +133,7 @@ class LockstepExchange {
 
   // True if the role of another host has done its last tick, also if that is not applied yet.
   bool has_ended(const Context& context, std::size_t role) {
-    const auto& lockstep = std::as_const(context.session).layout().lockstep;
+    const auto& lockstep = context.layout().lockstep;
     const std::int64_t end_tick = lockstep.end_tick.load(std::memory_order_relaxed);
     if (end_tick < 0) return false;
     const Partner* partner = partners_.find(performers_[role].host);

@@ -1,6 +1,5 @@
 // Patch maps on every host: sent row by row at a limited rate, published when whole.
-// Inputs: the pool of patch maps of the local segment while the radar model runs here; maps and rows of the host where
-//   it runs.
+// Inputs: the pool of patch maps while the radar model runs here; maps and rows of the host where it runs.
 // Outputs: a sample for each map and each row; whole maps in the local pool.
 // Errors: an invalid map is refused, counted and noted. A map without a free slot is noted.
 #pragma once
@@ -31,8 +30,7 @@ class MapExchange {
   }
 
   void receive(Context& context, const yars_net_PatchMapSample& sample) {
-    if (!context.hosts.is_new(sample)) return;
-    const auto map = context.valid<databuffer::PatchMap>(sample, sample.map);
+    const auto map = context.new_and_valid<databuffer::PatchMap>(sample, sample.map);
     if (!map) return;
     if (map->id != sample.id || map->id == 0)
       return context.hosts.refuse(sample, "id: expected that of the sample, not 0");
@@ -76,7 +74,7 @@ class MapExchange {
 
   // Maps of the pool that are not sent yet, oldest first.
   void begin_maps(Context& context) {
-    const auto& layout = std::as_const(context.session).layout();
+    const auto& layout = context.layout();
     std::array<std::uint64_t, databuffer::kPatchSlots> ids{};
     for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = layout.patches[i].id.load(std::memory_order_acquire);
     std::ranges::sort(ids);
@@ -97,7 +95,7 @@ class MapExchange {
 
   // Removes the rows of maps that are no longer in the pool from the history that hosts get when they join.
   void end_maps(Context& context) {
-    const auto& layout = std::as_const(context.session).layout();
+    const auto& layout = context.layout();
     const bool sends = context.roles.exports(Role::radar_model);
     std::erase_if(sent_, [&](const Sent& sent) {
       if (sends && databuffer::slot_of<shm::PlainAccess>(layout.patches, sent.id) != nullptr) return false;

@@ -2,8 +2,7 @@
 // Inputs: number of a record at its source; number of records in the local container before it is written.
 // Errors: numbers are kept with 32 and 27 bits. A source that is 2^31 records ahead of its entry is taken for another
 //   place; so is a container to which others have added a multiple of 2^27 records.
-// A gateway killed at any point leaves an entry from which the next one continues without a gap and without a
-//   repetition.
+// A gateway killed at any point leaves an entry from which the next one continues without gap or repetition.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Roles of a session that is spread over hosts: which host has each, and the roles that this host's gateway holds for
-// others.
+// Which host has each role of a session, and the roles that this host's gateway holds for others.
 // Inputs: the hosts that are heard; lock bytes of the local segment.
 // Outputs: claims on the local roles of other hosts ("mirrored" roles), so that no local process takes them; requests
 //   that a local holder yields; this host's claims, for its announcements.
@@ -14,8 +13,7 @@
 
 namespace yars::gateway {
 
-// [ns] Time for which a gateway that starts only listens, before it takes what no host has. Hosts hear each other
-// within 0.3 s, also on a line with 20 ms delay that loses 1 %.
+// [ns] A gateway that starts listens so long before it takes what no host has. Hosts hear each other within 0.3 s.
 inline constexpr std::int64_t kListening_ns = 1'000'000'000;
 
 class Roles {
@@ -35,8 +33,7 @@ class Roles {
     for (State& state : states_) release(state);
   }
 
-  // This host may not hold the role, as its records may not leave it (topicsOut, permissions of DDS Security). A local
-  // holder yields, and a standby waits. Otherwise the other hosts would wait for records that never come.
+  // This host may not hold the role, as its records may not leave it (topicsOut, permissions): a local holder yields.
   void bar(Role role) {
     std::ranges::find(states_, role, &State::role)->barred = true;
     log::info("this host may not hold the role " + std::string(name_of(role)) + ": its topics may not leave it");

@@ -18,13 +18,9 @@ namespace yars::gateway {
 template <class Sample>
 void name_lanes(Sample& sample, const LaneNames& lanes, std::uint64_t self) {
   if constexpr (std::is_same_v<Sample, yars_net_AdviceSample>) {
-    const RemoteName name = lanes.input_name(sample.advice.idle_lane, self);
-    sample.sender = name.host;
-    sample.advice.idle_lane = name.lane;
+    lanes.input_name(sample.advice.idle_lane, self).write_to(sample.sender, sample.advice.idle_lane);
   } else if constexpr (std::is_same_v<Sample, yars_net_ModelStatusSample>) {
-    const RemoteName name = lanes.ownship_name(sample.status.ownship_lane, self);
-    sample.ownship_host = name.host;
-    sample.status.ownship_lane = name.lane;
+    lanes.ownship_name(sample.status.ownship_lane, self).write_to(sample.ownship_host, sample.status.ownship_lane);
   }
 }
 
@@ -49,7 +45,7 @@ class State {
       : role_(role), field_(field), slot_(slot), least_ns_(least_ns) {}
 
   void send(Context& context, const LaneNames& lanes) {
-    const auto& slot = std::as_const(context.session).layout().*slot_;
+    const auto& slot = context.layout().*slot_;
     if (!context.roles.exports(role_) || !slot.has_value()) return;
     const bool is_new = reader_.refresh(slot);
     if (!reader_.has_value() || !pace_.is_due(is_new, context.now_ns, context.lockstep ? 0 : least_ns_)) return;
@@ -158,7 +154,7 @@ class StateExchange {
   // Each held lane has a writer of its own. The writer of a lane without new records ends after the lease, so that the
   // other hosts see the next lane. In lockstep a record is repeated, because a host that joins would wait for it.
   void send_ownship(Context& context) {
-    const auto& layout = std::as_const(context.session).layout();
+    const auto& layout = context.layout();
     for (std::size_t lane = 0; lane < databuffer::kOwnshipLanes; ++lane) {
       const auto number = static_cast<std::uint32_t>(lane);
       SentLane& sent = sent_lanes_[lane];

@@ -1,11 +1,9 @@
 // The world on several hosts: sea, wind, rain, jammers, movers and sequence points that any host's instructor changes.
 // Inputs: on radar-model's host its containers world, world_configured and world_latched, and requests of other hosts;
 //   on the others samples of that host, and the local container world_request.
-// Outputs: on radar-model's host samples, and requested changes in `world`; on the others the same three
-//   containers, and requests. An answer for each request.
-// Errors: an invalid record is refused, counted and noted. A request is answered as outdated if it is not based on the
-//   newest edit, so that no change of another instructor is lost. One that is older than 1 s has no effect.
-// Limits: one waiting request of each host; one takes effect each 50 ms.
+// Outputs: on radar-model's host samples, requested changes in `world`, and an answer for each request; on the others
+//   the same three containers, and requests.
+// Errors: an invalid record is refused, counted and noted; so is a change that is not based on the newest edit.
 // Source: docs/network.md#the-world.
 #pragma once
 
@@ -43,13 +41,13 @@ class WorldExchange {
   }
 
   void receive(Context& context, const yars_net_WorldSample& sample) {
-    if (context.hosts.is_new(sample) && context.valid<WorldState>(sample, sample.newest) &&
+    if (context.new_and_valid<WorldState>(sample, sample.newest) &&
         (sample.has_configured == 0 || context.valid<WorldState>(sample, sample.configured)))
       states_.keep(context.hosts, sample);
   }
 
   void receive(Context& context, const yars_net_LatchedWorldSample& sample) {
-    if (!context.hosts.is_new(sample) || !context.valid<WorldState>(sample, sample.world)) return;
+    if (!context.new_and_valid<WorldState>(sample, sample.world)) return;
     latched_.keep(context.hosts, sample);
     const auto* newest = latched_.newest(context.hosts, context.roles.source(Role::radar_model));
     if (newest != nullptr && newest->host == sample.host) write_latched(context, *newest);
@@ -71,7 +69,7 @@ class WorldExchange {
       said_ = {};
       return std::nullopt;
     }
-    const auto& layout = std::as_const(context.session).layout();
+    const auto& layout = context.layout();
     const Versions versions{layout.world.version(), layout.world_latched.next(), layout.world_configured.version(),
                             answer_count_};
     if (versions == said_) return std::nullopt;
@@ -99,7 +97,7 @@ class WorldExchange {
     if (!owner || is_answered || (asked == requested_ && *owner == requested_of_)) return std::nullopt;
     requested_ = asked;
     requested_of_ = *owner;
-    const auto world = databuffer::read_valid(std::as_const(context.session).layout().world_request);
+    const auto world = databuffer::read_valid(context.layout().world_request);
     if (!world || context.now_ns - world->source_time_ns > databuffer::kMaxWorldRequestAge_ns) return std::nullopt;
     if (!context.writes(dds::Topic::world_requests)) {
       requests.answered.store(asked << 8 | static_cast<std::uint64_t>(WorldAnswer::forbidden));
@@ -107,7 +105,7 @@ class WorldExchange {
     }
     auto sample = context.made<yars_net_WorldRequestSample>();
     sample.owner = *owner;
-    sample.segment = context.hosts.identity().segment;
+    sample.segment = context.segment();
     sample.request = asked;
     copy_record(sample.world, *world);
     return sample;
@@ -133,13 +131,13 @@ class WorldExchange {
 
   // The last record is in effect, so that a gateway begins with it.
   void send_latched(Context& context) {
-    const auto& ring = std::as_const(context.session).layout().world_latched;
+    const auto& ring = context.layout().world_latched;
     if (!context.roles.exports(Role::radar_model)) return latched_cursor_.reset();
     if (!latched_cursor_) latched_cursor_ = std::max<std::uint64_t>(ring.next(), 1) - 1;
     WorldState world{};
     while (ring.read(*latched_cursor_, world).delivered) {
       auto sample = context.made<yars_net_LatchedWorldSample>();
-      sample.segment = context.hosts.identity().segment;
+      sample.segment = context.segment();
       sample.ring_number = *latched_cursor_ - 1;
       copy_record(sample.world, world);
       context.write(sample);
@@ -167,7 +165,7 @@ class WorldExchange {
   void write_answer(Context& context, const yars_net_WorldSample& sample) const {
     auto& requests = context.session.layout().world_requests;
     for (const auto& answer : sample.answers)
-      if (answer.host == context.hosts.self().id && answer.segment == context.hosts.identity().segment &&
+      if (answer.host == context.hosts.self().id && answer.segment == context.segment() &&
           answer.request == requests.asked.load(std::memory_order_acquire))
         requests.answered.store(answer.request << 8 | (answer.answer & 0xFFU), std::memory_order_release);
   }
@@ -186,7 +184,7 @@ class WorldExchange {
   // Where this gateway goes on: after what an earlier one has written here, or after an equal record, which the new
   // host of the radar model has had from the one before.
   void resume_latched(Context& context, const yars_net_LatchedWorldSample& sample) {
-    const auto& layout = std::as_const(context.session).layout();
+    const auto& layout = context.layout();
     const auto& progress = layout.world_requests.latched;
     const std::uint64_t next = layout.world_latched.next();
     if (next == 0) return;
@@ -226,7 +224,7 @@ class WorldExchange {
         difference_ns(context.now_ns, difference_ns(asked->source_time_ns, *context.hosts.offset_ns(request.host)));
     if (age_ns > databuffer::kMaxWorldRequestAge_ns || age_ns < -databuffer::kMaxWorldRequestAge_ns)
       return WorldAnswer::late;
-    const auto newest = databuffer::newest_world(std::as_const(context.session).layout());
+    const auto newest = databuffer::newest_world(context.layout());
     if (newest) {
       WorldState latched = *asked;
       latched.tick = newest->tick;
