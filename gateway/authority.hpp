@@ -5,6 +5,7 @@
 // Source: docs/network.md#which-host-has-a-role.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -31,8 +32,7 @@ struct HostView {
   bool owns_clock = false;
 };
 
-// True if `first` keeps a role that both hold: the host of higher priority; then the one that heard more hosts before
-// the two met, which after a partition is the larger part; then the first name by ASCII.
+// True if `first` keeps a role that both hold: by priority, then as the larger part before they met, then by name.
 inline bool precedes(const HostView& first, const HostView& second) {
   if (first.priority != second.priority) return first.priority > second.priority;
   if (first.group != second.group) return first.group > second.group;
@@ -50,16 +50,13 @@ const HostView* preceding(std::span<const HostView> hosts, const Holds& holds) {
 
 // Number of hosts that precede `self` in the order of priority and name.
 inline std::size_t rank_of(std::span<const HostView> hosts, const HostView& self) {
-  std::size_t rank = 0;
-  for (HostView host : hosts) {
+  return static_cast<std::size_t>(std::ranges::count_if(hosts, [&self](HostView host) {
     host.group = self.group;
-    if (host.id != self.id && precedes(host, self)) ++rank;
-  }
-  return rank;
+    return host.id != self.id && precedes(host, self);
+  }));
 }
 
-// Wait before a host takes what no host has. It grows with the host's rank, so that two hosts rarely take the same role
-// in the same moment.
+// Wait, for each rank, before a host takes what no host has. Two hosts rarely take a role in the same moment.
 inline constexpr std::int64_t kTurn_ns = 150'000'000;
 
 class Vacancy {

@@ -66,8 +66,7 @@ class OffsetEstimator {
   std::size_t count_ = 0;
 };
 
-// An offset in use that moves towards the measured one: by at most 1 ms per second, while it is wrong by more than 2 ms
-// by at most 10 ms per second.
+// An offset in use that moves towards the measured one, by at most 1 ms per second; if it is far off, by 10 ms.
 class SlewedOffset {
  public:
   void set(std::int64_t offset_ns) {

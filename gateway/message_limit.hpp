@@ -1,5 +1,5 @@
-// Limit for messages of a library that others can make it write: some lines a second, the same line once a minute, and
-// a count of the rest.
+// Limits of what others can cause; of the messages of a library that they can make it write: some lines a second, the
+// same line once a minute, and a count of the rest.
 // Inputs: messages, with CLOCK_MONOTONIC times [ns].
 // Outputs: the messages that pass; after a flood one line with the number of those left out.
 // Memory: at most kBurst messages of kMaxLength bytes wait, and kRemembered are remembered.
@@ -14,9 +14,23 @@
 #include <utility>
 #include <vector>
 
-#include "gateway/pace.hpp"
-
 namespace yars::gateway {
+
+// Limit of what others can cause: `at_once` times, and then once in an interval.
+class Allowance {
+ public:
+  Allowance(std::int64_t interval_ns, std::int64_t at_once) : interval_ns_(interval_ns), at_once_(at_once) {}
+  bool take(std::int64_t now_ns) {
+    const std::int64_t next_ns = std::max(whole_at_ns_, now_ns) + interval_ns_;
+    if (next_ns - now_ns > at_once_ * interval_ns_) return false;
+    whole_at_ns_ = next_ns;
+    return true;
+  }
+
+ private:
+  std::int64_t interval_ns_, at_once_;
+  std::int64_t whole_at_ns_ = 0;  // when the allowance is whole again
+};
 
 class MessageLimit {
  public:

@@ -17,6 +17,7 @@
 #include "gateway/exchange/map_exchange.hpp"
 #include "gateway/exchange/state_exchange.hpp"
 #include "gateway/exchange/world_exchange.hpp"
+#include "runtime/option_text.hpp"
 #include "runtime/process.hpp"
 #include "runtime/processor_load.hpp"
 #include "runtime/program.hpp"
@@ -32,12 +33,6 @@ constexpr std::int64_t kMaxEnd_ns = 1'000'000'000;
 constexpr std::int64_t kLockstepEnd_ns = 20'000'000;  // until the other hosts have taken what they have acknowledged
 constexpr std::int64_t kSilence_ns = 10'000'000'000;  // hosts that can hear each other do so within 0.3 s
 
-std::string list_of(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
 // What the gateway needs each time that it joins.
 struct Joining {
   radar::NetworkSettings settings;
@@ -49,7 +44,6 @@ struct Joining {
 // Gateway of one host: in passes of 5 ms it exchanges records between the local segment and the other hosts.
 // Inputs: the local segment; samples of other hosts.
 // Outputs: samples; records of other hosts in the local segment; NetworkStatus twice a second.
-// Errors: none ends the gateway. Invalid samples are refused, counted and noted.
 // Source: docs/network.md.
 class GatewayShell {
  public:
@@ -81,8 +75,8 @@ class GatewayShell {
     next_pass_ns_ = std::max(next_pass_ns_ + interval_ns, context_.now_ns);
   }
 
-  // The host whose handshake with this one was lost; empty: none. The caller then opens a new link and a new shell.
-  const std::string& lost_handshake() const { return lost_handshake_; }
+  // As Participants::take_lost_handshake(). The caller then opens a new link and a new shell.
+  std::string take_lost_handshake() { return link_.participants().take_lost_handshake(context_.now_ns); }
 
   // Runs further passes until the other hosts have what this one has sent, for 1 s at most. Without them the last tick
   // of a lockstep run would not reach a slower host.
@@ -132,19 +126,11 @@ class GatewayShell {
     if (context_.lockstep) lockstep_.send(context_);
   }
 
-  // Finds the processes of this host that hold no role with a lock byte, so that `yars status` shows them on all hosts.
-  void look_at_processes() {
-    std::uint32_t processes = 0;
-    for (const databuffer::ProcessInfo& process : session_->processes())
-      if (const auto index = databuffer::counted_role(process.name)) processes |= 1U << *index;
-    hosts_.set_processes(processes & shown_processes());
-  }
-
   void report_joined() const {
     if (hosts_.views().size() > 1) return log::info("joined the session clock");
     log::info("joined the session clock, alone: " +
               (joining_->peers.empty() ? "the form Network names no other computer"
-                                       : "asked " + list_of(joining_->peers) +
+                                       : "asked " + runtime::joined_by_or(joining_->peers) +
                                              ": none has answered yet; this computer goes on alone and joins them "
                                              "when they come"));
   }
@@ -157,7 +143,6 @@ class GatewayShell {
       reported_silence_ = true;
       session_->note(databuffer::NoteKind::loss, remark.note);
     }
-    lost_handshake_ = link_.participants().take_lost_handshake(context_.now_ns);
     report_silence();
   }
 
@@ -167,7 +152,7 @@ class GatewayShell {
     reported_silence_ = true;
     if (link_.counts(dds::Topic::hosts).received > 0) return;
     const int first_port = dds::first_port(joining_->settings.domain) + 10;
-    log::warning("no other host has been heard in 10 s, asked " + list_of(joining_->peers) +
+    log::warning("no other host has been heard in 10 s, asked " + runtime::joined_by_or(joining_->peers) +
                  "; the usual reasons: no gateway runs there, it has another session or domain, `security` is on one "
                  "side only, or a firewall closes UDP ports " +
                  std::to_string(first_port) + " to " +
@@ -175,8 +160,11 @@ class GatewayShell {
   }
 
   void report() {
-    look_at_processes();
     report_messages();
+    std::uint32_t processes = 0;
+    for (const databuffer::ProcessInfo& process : session_->processes())
+      if (const auto index = databuffer::counted_role(process.name)) processes |= 1U << *index;
+    hosts_.set_processes(processes & shown_processes());
     databuffer::NetworkStatus status{};
     status.monotonic_ns = context_.now_ns;
     status.joined = clock_.joined() ? 1 : 0;
@@ -206,7 +194,6 @@ class GatewayShell {
   HistoryExchange history_{lanes_, world_numbers_};
   MapExchange maps_;
   LockstepExchange lockstep_;
-  std::string lost_handshake_;
   bool reported_joined_ = false;
   bool reported_silence_ = false;
   std::int64_t next_pass_ns_ = 0;
@@ -277,9 +264,9 @@ error::Expected<bool> join(const runtime::ProgramOptions& options, Joining& join
   GatewayShell shell(*session, options.session, std::move(*link), joining);
   while (!runtime::stop_requested()) {
     shell.step();
-    if (shell.lost_handshake().empty() || !joining.rejoins.take(databuffer::monotonic_ns())) continue;
-    log::warning("the handshake with the gateway of " + shell.lost_handshake() +
-                 " was lost, as on a bad line: joins again");
+    const std::string host = shell.take_lost_handshake();
+    if (host.empty() || !joining.rejoins.take(databuffer::monotonic_ns())) continue;
+    log::warning("the handshake with the gateway of " + host + " was lost, as on a bad line: joins again");
     shell.finish();
     return true;
   }

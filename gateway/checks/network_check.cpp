@@ -105,18 +105,6 @@ std::optional<Address> address_of(const std::string& peer) {
   return address;
 }
 
-void add_warnings(ComputerCheck& check, const radar::NetworkSettings& settings) {
-  const bool reaches_others = std::ranges::any_of(settings.interfaces, [](const auto& name) { return name != "lo"; });
-  if (!reaches_others && !check.other_peers.empty())
-    check.warnings.emplace_back(
-        "Network: interfaces: expected an interface that reaches the peers, found `lo` alone; name one that `ip link` "
-        "lists");
-  if (reaches_others && check.other_peers.empty() && check.known_peers.size() == settings.peers.size())
-    check.warnings.emplace_back(
-        "Network: peers: expected the addresses of the other computers, found none; this computer asks nobody, and "
-        "joins those alone that name it: list them in `peers`");
-}
-
 // ---- Identity
 constexpr std::size_t kMaxFile_bytes = std::size_t{1} << 20;
 constexpr const char* kCopyAll = "copy all files of the host's folder from one run of scripts/network_identities";
@@ -169,8 +157,7 @@ std::string text_of_file(const std::filesystem::path& path) {
   return std::move(*text);
 }
 
-// The object that a file in the form PEM has, as read(bio, nullptr, password, nullptr) of OpenSSL makes it. One with a
-// password is refused: nobody is asked for it.
+// The object in a file, by a function of OpenSSL. One with a password is refused: nobody is asked for it.
 template <class Object, class Read>
 Object pem_in(const std::filesystem::path& path, const std::string& what, const Read& read) {
   const std::string text = text_of_file(path);
@@ -276,8 +263,8 @@ std::vector<std::string> warnings_of_key(const std::filesystem::path& path) {
 std::string host_name() {
   std::array<char, 64> name{};
   gethostname(name.data(), name.size() - 1);
-  std::string text(name.data());
-  return text.substr(0, std::min(text.find('.'), radar::kMaxHostName));
+  const std::string_view text(name.data());
+  return std::string(text.substr(0, std::min(text.find('.'), radar::kMaxHostName)));
 }
 
 Expected<ComputerCheck> check_computer(const radar::NetworkSettings& settings) {
@@ -300,16 +287,24 @@ Expected<ComputerCheck> check_computer(const radar::NetworkSettings& settings) {
     if (*address >> 24U != 127 && std::ranges::find(here, address, &Interface::address) == here.end())
       check.other_peers.push_back(peer);
   }
-  add_warnings(check, settings);
+  const bool reaches_others = std::ranges::any_of(settings.interfaces, [](const auto& name) { return name != "lo"; });
+  if (!reaches_others && !check.other_peers.empty())
+    check.warnings.emplace_back(
+        "Network: interfaces: expected an interface that reaches the peers, found `lo` alone; name one that `ip link` "
+        "lists");
+  if (reaches_others && check.other_peers.empty() && check.known_peers.size() == settings.peers.size())
+    check.warnings.emplace_back(
+        "Network: peers: expected the addresses of the other computers, found none; this computer asks nobody, and "
+        "joins those alone that name it: list them in `peers`");
   return check;
 }
 
 Expected<std::vector<std::string>> check_identity(const std::string& folder, const std::string& name) try {
   const std::filesystem::path path(folder);
-  struct stat status{};
-  const bool exists = ::stat(path.c_str(), &status) == 0;
-  if (!exists || !S_ISDIR(status.st_mode))
-    refuse("a folder with the identity of this host", exists ? folder + ", a file" : "none at " + folder,
+  std::error_code code;
+  if (!std::filesystem::is_directory(path, code))
+    refuse("a folder with the identity of this host",
+           std::filesystem::exists(path, code) ? folder + ", a file" : "none at " + folder,
            "scripts/network_identities makes one for each host");
   const Certificate authority = certificate_in(path / "identity_ca.pem");
   const Certificate certificate = certificate_in(path / "certificate.pem");

@@ -6,6 +6,7 @@
 // Threads: any.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -36,12 +37,8 @@ class InstanceQuota {
   void end(std::uint64_t instance) {
     const std::lock_guard guard(mutex_);
     const auto found = writers_.find(instance);
-    if (found == writers_.end()) {
-      ++strays_;
-      return;
-    }
-    const auto count = counts_.find(found->second);
-    if (count != counts_.end() && --count->second == 0) counts_.erase(count);
+    if (found == writers_.end()) return void(++strays_);
+    if (--counts_[found->second] == 0) counts_.erase(found->second);
     writers_.erase(found);
   }
   // All instances have ended.
@@ -55,20 +52,15 @@ class InstanceQuota {
     const std::lock_guard guard(mutex_);
     return writers_.size();
   }
-  std::uint64_t refused() const {
-    const std::lock_guard guard(mutex_);
-    return refused_;
-  }
+  std::size_t of_writer() const { return of_writer_; }
+  std::uint64_t refused() const { return refused_; }
   // Ends of instances that never had a sample. Their writer may hold them.
-  std::uint64_t strays() const {
-    const std::lock_guard guard(mutex_);
-    return strays_;
-  }
+  std::uint64_t strays() const { return strays_; }
 
  private:
   mutable std::mutex mutex_;
   std::size_t of_writer_, of_all_;
-  std::uint64_t refused_ = 0, strays_ = 0;
+  std::atomic<std::uint64_t> refused_ = 0, strays_ = 0;
   std::unordered_map<std::uint64_t, std::uint64_t> writers_;  // by instance
   std::unordered_map<std::uint64_t, std::size_t> counts_;     // by writer
 };

@@ -1,21 +1,18 @@
 #include "gateway/dds/link.hpp"
 
 #include <netinet/in.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <mutex>
 
-#include "gateway/message_limit.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::gateway::dds {
 
 namespace {
-
-constexpr std::uint64_t kMaxStrays = 8192;  // ends of instances that never had a sample: 16 MB
 
 // Messages of Cyclone DDS, which arrive on its own threads. One object for the process, as Cyclone has one sink.
 // Whoever reaches the ports can make Cyclone write many, so they are limited. Their time is that of the last take().
@@ -114,9 +111,7 @@ Qos qos_of(Topic topic) {
 void bind_sockets(const radar::NetworkSettings& settings) {
   if (settings.interfaces.size() != 1) return;
   const std::string& name = settings.interfaces.front();
-  rlimit limit{};
-  getrlimit(RLIMIT_NOFILE, &limit);
-  const int end = static_cast<int>(std::min<rlim_t>(limit.rlim_cur, 1024));
+  const int end = static_cast<int>(std::min(sysconf(_SC_OPEN_MAX), 1024L));
   for (int descriptor = 3; descriptor < end; ++descriptor) {
     sockaddr_in address{};
     socklen_t length = sizeof address;
@@ -155,15 +150,6 @@ Link::TopicState::TopicState(Topic topic)
     : quota(settings_of(topic).instances,
             topic == Topic::patch_rows ? 65536 : settings_of(topic).instances * databuffer::kMaxHosts) {
   text::put_text(counts.name, settings_of(topic).name);
-}
-
-Link::State::State(const radar::NetworkSettings& network_settings) : settings(network_settings) {
-  for (std::size_t i = 0; i < kTopicCount; ++i) topics.emplace_back(static_cast<Topic>(i));
-}
-
-Link::State::~State() {
-  if (domain > 0) dds_delete(domain);
-  dds_set_log_sink(nullptr, nullptr);
 }
 
 error::Expected<void> Link::State::open_topics(const std::string& session) {
@@ -208,14 +194,6 @@ dds_entity_t Link::State::open_reader(Topic topic) {
   return reader;
 }
 
-// The only way to free instances whose writer lives. What the writers keep arrives again.
-void Link::State::renew_flooded_reader(Topic topic) {
-  if (at(topic).quota.strays() <= kMaxStrays || at(topic).reader <= 0) return;
-  dds_delete(at(topic).reader);
-  at(topic).quota.clear();
-  at(topic).reader = open_reader(topic);
-}
-
 bool Link::State::is_from(Topic topic, dds_instance_handle_t writer, std::uint64_t host) {
   if (!is_secured() || (host != 0 && senders.host_of(at(topic).reader, writer) == host)) return true;
   if (at(topic).posed++ == 0)
@@ -223,12 +201,6 @@ bool Link::State::is_from(Topic topic, dds_instance_handle_t writer, std::uint64
                 ": expected samples of the host that the writer's certificate names, found one of another; such "
                 "samples are left out");
   return false;
-}
-
-void Link::State::update_senders() {
-  constexpr std::uint32_t kInterval = 10;  // passes
-  if (!is_secured() || passes++ % kInterval != 0) return;
-  for (std::size_t i = 0; i < kTopicCount; ++i) senders.update(topics[i].reader, static_cast<Topic>(i));
 }
 
 error::Expected<Link> Link::open(const radar::NetworkSettings& settings, const std::string& session) {
@@ -280,11 +252,14 @@ bool Link::is_acknowledged() const {
 }
 
 std::vector<std::string> Link::take_messages(std::int64_t now_ns) {
+  // A message for the first sample, the 10th, the 100th, ...
   for (TopicState& topic : state_->topics) {
     const std::uint64_t refused = topic.quota.refused();
-    if (std::exchange(topic.refused, refused) == refused) continue;
-    add_message("topic " + std::string(text::text_of(topic.counts.name)) +
-                ": expected fewer instances of a writer, found more; they are left out; another program writes there");
+    if (refused < topic.next_report) continue;
+    while (topic.next_report <= refused) topic.next_report *= 10;
+    add_message("topic " + std::string(text::text_of(topic.counts.name)) + ": expected at most " +
+                std::to_string(topic.quota.of_writer()) + " instances of a writer, found more; " +
+                std::to_string(refused) + " samples left out so far; another program writes there");
   }
   return taken_messages(now_ns);
 }

@@ -96,19 +96,35 @@ class Link {
     explicit TopicState(Topic topic);
     dds_entity_t topic = 0, reader = 0, writer = 0;
     databuffer::TopicStatus counts{};
-    std::uint64_t posed = 0;    // samples that named another host than their writer's
-    InstanceQuota quota;        // of the reader
-    std::uint64_t refused = 0;  // by the quota, at the last message
+    std::uint64_t posed = 0;        // samples that named another host than their writer's
+    InstanceQuota quota;            // of the reader
+    std::uint64_t next_report = 1;  // number of refused samples that is worth a message
   };
   struct State {
-    explicit State(const radar::NetworkSettings& settings);
+    explicit State(const radar::NetworkSettings& network_settings) : settings(network_settings) {
+      for (std::size_t i = 0; i < kTopicCount; ++i) topics.emplace_back(static_cast<Topic>(i));
+    }
     State(const State&) = delete;
     State& operator=(const State&) = delete;
-    ~State();  // other hosts learn at once that this one has left
+    ~State() {  // other hosts learn at once that this one has left
+      if (domain > 0) dds_delete(domain);
+      dds_set_log_sink(nullptr, nullptr);
+    }
     error::Expected<void> open_topics(const std::string& session);
     dds_entity_t open_reader(Topic topic);  // negative: an error of Cyclone DDS
-    void renew_flooded_reader(Topic topic);
-    void update_senders();
+    // The only way to free instances whose writer lives. What the writers keep arrives again.
+    void renew_flooded_reader(Topic topic) {
+      constexpr std::uint64_t kMaxStrays = 8192;  // ends of instances that never had a sample: 16 MB
+      if (at(topic).quota.strays() <= kMaxStrays || at(topic).reader <= 0) return;
+      dds_delete(at(topic).reader);
+      at(topic).quota.clear();
+      at(topic).reader = open_reader(topic);
+    }
+    void update_senders() {
+      constexpr std::uint32_t kInterval = 10;  // passes
+      if (!is_secured() || passes++ % kInterval != 0) return;
+      for (std::size_t i = 0; i < kTopicCount; ++i) senders.update(topics[i].reader, static_cast<Topic>(i));
+    }
     // True if the sample's writer is the host that the sample names, or may be.
     bool is_from(Topic topic, dds_instance_handle_t writer, std::uint64_t host);
     bool is_secured() const { return !settings.security.empty(); }

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "databuffer/messages/note.hpp"
-#include "gateway/pace.hpp"
+#include "gateway/message_limit.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::gateway::dds {
@@ -95,8 +95,8 @@ class Participants {
   }
 
   // With security: the name of a gateway with which this one should try the handshake again, by a new participant of
-  // its own; empty: none. Cyclone DDS 0.10 can lose a handshake for good on a line that loses messages (issue 1895). Of
-  // two gateways the one with the greater GUID tries. Each participant is named once.
+  // its own; empty: none. Cyclone DDS 0.10 can lose one for good on a bad line (issue 1895). Of two gateways the one
+  // with the greater GUID tries. Each participant is named once.
   std::string take_lost_handshake(std::int64_t now_ns) {
     for (auto& [key, other] : others_) {
       const bool is_lost = secured_ && is_apart(other) && other.session.empty() && key < self_;
@@ -110,8 +110,7 @@ class Participants {
  private:
   static constexpr int kMaxTaken = 256;          // samples at once
   static constexpr std::size_t kMaxOthers = 64;  // participants that are remembered; forged ones beyond are not named
-  // [ns] A host's writers are known some ms after itself, encrypted on a bad line half a second. With a shorter time a
-  // loaded machine would name hosts that join.
+  // [ns] With a shorter time a loaded machine would name hosts that join: their writers are known after themselves.
   static constexpr std::int64_t kSilence_ns = 5'000'000'000;
   // [ns] A handshake on a bad line is done, or lost for good, within this time.
   static constexpr std::int64_t kHandshake_ns = 8'000'000'000;

@@ -52,17 +52,14 @@ inline constexpr std::uint32_t kRows = 16384;    // 1024 rows of each of eight m
 enum class Topic : std::uint8_t { YARS_TOPICS(YARS_TOPIC) };
 #undef YARS_TOPIC
 
-template <class Sample>
-struct TopicOf;
-#define YARS_TOPIC(name, Sample, ...)           \
-  template <>                                   \
-  struct TopicOf<Sample> {                      \
-    static constexpr Topic value = Topic::name; \
-  };
+#define YARS_TOPIC(name, Sample, ...)       \
+  constexpr Topic topic_of(const Sample*) { \
+    return Topic::name;                     \
+  }
 YARS_TOPICS(YARS_TOPIC)
 #undef YARS_TOPIC
 template <class Sample>
-inline constexpr Topic kTopicOf = TopicOf<Sample>::value;
+inline constexpr Topic kTopicOf = topic_of(static_cast<const Sample*>(nullptr));
 
 constexpr std::size_t index_of(Topic topic) {
   return static_cast<std::size_t>(topic);

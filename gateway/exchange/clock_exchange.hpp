@@ -148,8 +148,7 @@ class ClockExchange {
 
   // After a partition two hosts hold a role, or the part whose clock gives way has a later epoch. The host whose clock
   // stays begins a new epoch, so that no picture mixes records of the two parts, and epochs never go back. It may hear
-  // of the other holder only when that one has given way already: thus the host that gives way asks for the new epoch,
-  // until it has come.
+  // of the other holder too late. Thus the host that gives way asks for the new epoch, until it has come.
   void resolve_conflicts(Context& context) {
     const bool gives_way = context.roles.gives_way();
     const bool has_begun = epoch_begun_ns_ != 0 && context.now_ns - epoch_begun_ns_ < kOneMeeting_ns;

@@ -71,9 +71,8 @@ class EventExchange {
 
   void receive(Context& context, const yars_net_EventReceiptSample& sample) {
     if (!context.hosts.is_new(sample)) return;
-    const std::uint64_t self = context.hosts.self().id;
-    if (sample.sender != self || sample.segment != context.segment() || sample.lane >= sending_.size() ||
-        context.roles.source(Role::state_machine) != sample.host)
+    if (sample.sender != context.hosts.self().id || sample.segment != context.segment() ||
+        sample.lane >= sending_.size() || context.roles.source(Role::state_machine) != sample.host)
       return;
     auto& input = context.session.layout().input;
     const std::uint64_t waiting = input.pushed(sample.lane) - input.popped(sample.lane);
@@ -89,10 +88,10 @@ class EventExchange {
     auto applied = context.valid<databuffer::AppliedEvent>(sample, sample.applied);
     if (!applied) return;
     applied->monotonic_ns = local_time_ns(context, sample.host, applied->monotonic_ns);
-    if (sample.sender != context.hosts.self().id)
-      applied->lane = kNoLane;
-    else
+    if (sample.sender == context.hosts.self().id)
       pop_applied(context, *applied);
+    else
+      applied->lane = kNoLane;
     applied->event.monotonic_ns = local_time_ns(context, sample.host, applied->event.monotonic_ns);
     applied_.publish(context, sample, *applied);
   }

@@ -149,9 +149,8 @@ class HistoryExchange {
     }
   };
 
-  // True for a record that comes too late. After a partition the history of the part that yielded arrives, too. It has
-  // the epoch from before the meeting. A host that takes the role over may be a few ticks behind its predecessor. Older
-  // ticks are from a time in which this host did not hear it.
+  // True for a record that comes too late: of an epoch before a meeting, from the part that yielded; or older than the
+  // few ticks by which a host that takes the role over may be behind its predecessor.
   template <class Record>
   bool is_past(Context& context, std::uint64_t host, const Record& record) const {
     if (is_later(context.session.clock().epoch, record.epoch)) return true;

@@ -14,14 +14,12 @@ namespace yars::gateway {
 inline constexpr std::array kHistories{dds::Topic::applied_events, dds::Topic::traffic_latched, dds::Topic::model_ticks,
                                        dds::Topic::sweeps};
 
-// [ns] sim time. A host that hears a history for the first time takes no older records: its recorder would take them
-// for new.
+// [ns] sim time. A host that hears a history for the first time takes no older records, which its recorder had not had.
 inline constexpr std::int64_t kMaxFirstAge_ns = 500'000'000;
 
 // True once the records of a history of another host may be taken. `newest()`: tick of the state that the host last
-// published; nullopt: none has arrived. It is called only until the history has begun. A lockstep run, whose ticks do
-// not follow the session clock, is not known here until a role of this host begins it. Its first records would be taken
-// for old ones, and nobody would send them again.
+// published, if any; it is called only until the history has begun. A lockstep run is not known here until a role of
+// this host begins it. Its first records, which nobody sends again, would be taken for old ones.
 template <class Newest>
 bool may_begin(const Context& context, dds::Topic topic, std::uint64_t host, const Newest& newest) {
   if (context.lockstep || host == context.hosts.self().id ||
@@ -125,8 +123,7 @@ class History {
     return context.hosts.is_new(sample) && context.roles.source(kRole) == sample.host;
   }
 
-  // Publishes a record of another host here. `origin`: its sample, or what has its host, start and number. Output: its
-  // number in the ring here.
+  // Publishes a record of another host. `origin` has its sample's host, start and number. Output: its number here.
   template <class Origin>
   std::uint64_t publish(Context& context, const Origin& origin, const Record& record) const {
     auto& layout = context.session.layout();

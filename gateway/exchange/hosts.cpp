@@ -2,20 +2,14 @@
 
 #include <cstdio>
 
-#include "lib/text/plain_text.hpp"
-
 namespace yars::gateway {
 
 namespace {
 
 using databuffer::NoteKind;
 
-constexpr std::int64_t kProbeInterval_ns = 250'000'000;
-constexpr std::int64_t kFirstProbeInterval_ns = 25'000'000;  // of the first kFirstProbes, so that a host joins quickly
-constexpr std::size_t kFirstProbes = 12;
 constexpr std::int64_t kClaimPatience_ns = 3'000'000'000;
 constexpr std::uint32_t kOtherClaims = 1U << 31U;  // of Host::differences: roles or the clock that it may not have
-constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
 
 std::optional<std::string> fault_of(const yars_net_HostSample& sample) {
   for (const std::string_view text : {text::text_of(sample.name), text::text_of(sample.version)})
@@ -43,14 +37,6 @@ Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
   own_.protocol = yars_net_kProtocol;
   text::put_text(own_.name, identity_.name);
   text::put_text(own_.version, YARS_VERSION);
-}
-
-// The stored history of all instances of a host.
-std::uint64_t Hosts::max_repeats(dds::Topic topic) {
-  constexpr std::uint64_t kStates = 4, kMapRows = 16384, kLanes = databuffer::kInputLanes;
-  if (topic == dds::Topic::patch_rows || topic == dds::Topic::patch_maps) return kMapRows;
-  const auto depth = static_cast<std::uint64_t>(settings_of(topic).depth);
-  return depth == 1 ? kStates * kLanes : depth * (topic == dds::Topic::input_events ? kLanes : 1) + kStates;
 }
 
 void Hosts::exchange(std::int64_t now_ns) {
@@ -84,9 +70,7 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   if (host->name.is_news(now_ns))
     say(log::error, NoteKind::loss, "two hosts are called " + host->view.name + "; give each a `name` of its own");
   if (!host->alive) readmit(*host, sample.start);
-  if (!host->numbers[dds::index_of(dds::Topic::hosts)].is_new(sample.start, sample.number,
-                                                              max_repeats(dds::Topic::hosts)))
-    return;
+  if (!is_new(sample)) return;
   const bool is_news = !host->alive || host->said.start != sample.start;
   host->said = sample;
   host->heard_ns = now_ns;
@@ -98,20 +82,6 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   host->view.owns_clock = sample.owns_clock != 0 && writes(dds::Topic::clock);
   report_differences(*host, now_ns);
   update_views();
-}
-
-// A host that is heard for the first time, again after silence, or with a new gateway.
-void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns) {
-  const bool was_alive = std::exchange(host.alive, true);
-  host.left = false;
-  host.view.name = text::text_of(sample.name);
-  host.offset = {};
-  host.next_probe_ns = now_ns;
-  host.differences = 0;
-  host.began_ns = now_ns;
-  readmit(host, sample.start);
-  if (was_alive && host.name.is_shared(now_ns)) return;  // each of those with the name would be said again and again
-  say(log::info, NoteKind::restart, "hears host " + host.view.name);
 }
 
 void Hosts::report_differences(Host& host, std::int64_t now_ns) {
@@ -136,60 +106,6 @@ void Hosts::report_differences(Host& host, std::int64_t now_ns) {
          other + " has another terrain; start both with the same --terrain");
 }
 
-void Hosts::ask(std::int64_t now_ns) {
-  for (Host& host : hosts_) {
-    if (!host.alive || now_ns < host.next_probe_ns) continue;
-    host.next_probe_ns = now_ns + (host.offset.count() < kFirstProbes ? kFirstProbeInterval_ns : kProbeInterval_ns);
-    yars_net_ProbeSample question{};
-    question.from = self().id;
-    question.to = host.view.id;
-    question.asked_ns = databuffer::monotonic_ns();
-    if (link_ != nullptr) link_->write(question);
-  }
-}
-
-void Hosts::receive(const yars_net_ProbeSample& sample, std::int64_t now_ns) {
-  if (sample.stage == 0 && sample.to == self().id && link_ != nullptr) {
-    yars_net_ProbeSample answer = sample;
-    answer.stage = 1;
-    answer.received_ns = now_ns;
-    answer.answered_ns = databuffer::monotonic_ns();
-    link_->write(answer);
-  } else if (sample.stage == 1 && sample.from == self().id) {
-    if (Host* host = host_of(sample.to, false); host != nullptr)
-      host->offset.add({sample.asked_ns, sample.received_ns, sample.answered_ns, now_ns});
-  }
-}
-
-Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
-  if (const Host* known = std::as_const(*this).host_of(id)) return const_cast<Host*>(known);
-  if (!add || id == self().id) return nullptr;
-  Host host;
-  host.view.id = id;
-  if (hosts_.size() + 1 < databuffer::kMaxHosts) return &hosts_.emplace_back(std::move(host));
-  // A host that has left makes room, one that never announced itself first.
-  const auto oldest =
-      std::ranges::min_element(hosts_, {}, [](const Host& other) { return std::pair(other.alive, other.heard_ns); });
-  if (oldest->alive) {
-    log::warning("expected at most " + std::to_string(databuffer::kMaxHosts) + " hosts, found another");
-    return nullptr;
-  }
-  *oldest = std::move(host);
-  return &*oldest;
-}
-
-// Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it.
-// A process that was stopped for longer than the lease was alone.
-void Hosts::update_group(std::int64_t now_ns) {
-  if (now_ns - std::exchange(last_pass_ns_, now_ns) > kLease_ns) group_sizes_ = {{now_ns - kGroupDelay_ns, 1}};
-  const auto heard = static_cast<std::uint32_t>(views_.size());
-  if (group_sizes_.empty() || group_sizes_.back().second != heard) group_sizes_.emplace_back(now_ns, heard);
-  while (group_sizes_.size() > 1 && group_sizes_[1].first <= now_ns - kGroupDelay_ns) group_sizes_.pop_front();
-  if (in_conflict_) return;
-  const bool is_old = group_sizes_.front().first <= now_ns - kGroupDelay_ns;
-  views_.front().group = is_old ? group_sizes_.front().second : 1;
-}
-
 void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const {
   // Losses count where each sample matters. In the other topics a newer state replaces an older one.
   constexpr std::array kHistories{dds::Topic::applied_events, dds::Topic::model_ticks, dds::Topic::sweeps,
@@ -206,7 +122,6 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
                (alive && view.owns_clock ? databuffer::kHostOwnsClock : 0U);
     return &to;
   };
-  status.host_count = 0;
   add(self(), own_, own_name_, true)->flags |= databuffer::kHostSelf | databuffer::kHostOffsetKnown;
   for (const Host& host : hosts_) {
     if (host.view.name.empty() || status.host_count >= databuffer::kMaxHosts) continue;

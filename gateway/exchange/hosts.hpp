@@ -19,11 +19,29 @@
 #include "gateway/clock_offset.hpp"
 #include "gateway/dds/link.hpp"
 #include "gateway/host_id.hpp"
-#include "gateway/pace.hpp"
 #include "gateway/sample_numbers.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::gateway {
+
+// What is sent after a change, and else at a fixed interval.
+class Pace {
+ public:
+  explicit Pace(std::int64_t interval_ns) : interval_ns_(interval_ns) {}
+  // True: it is to be sent now. A change waits until `least_ns` have passed since the last time.
+  bool is_due(bool changed, std::int64_t now_ns, std::int64_t least_ns = 0) {
+    pending_ = pending_ || changed;
+    if (now_ns - sent_ns_ < (pending_ ? least_ns : interval_ns_)) return false;
+    pending_ = false;
+    sent_ns_ = now_ns;
+    return true;
+  }
+
+ private:
+  std::int64_t interval_ns_, sent_ns_ = 0;
+  bool pending_ = false;
+};
 
 // What this host says about itself.
 struct Identity {
@@ -88,7 +106,18 @@ class Hosts {
   std::uint64_t machine_term() const { return own_.machine_term; }
 
   void receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns);
-  void receive(const yars_net_ProbeSample& sample, std::int64_t now_ns);
+  void receive(const yars_net_ProbeSample& sample, std::int64_t now_ns) {
+    if (sample.stage == 0 && sample.to == self().id && link_ != nullptr) {
+      yars_net_ProbeSample answer = sample;
+      answer.stage = 1;
+      answer.received_ns = now_ns;
+      answer.answered_ns = databuffer::monotonic_ns();
+      link_->write(answer);
+    } else if (sample.stage == 1 && sample.from == self().id) {
+      if (Host* host = host_of(sample.to, false); host != nullptr)
+        host->offset.add({sample.asked_ns, sample.received_ns, sample.answered_ns, now_ns});
+    }
+  }
 
   // This host, first, and every host that is heard and has the same layout.
   std::span<const HostView> views() const { return views_; }
@@ -171,6 +200,10 @@ class Hosts {
   void describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const;
 
  private:
+  static constexpr std::int64_t kProbeInterval_ns = 250'000'000;
+  static constexpr std::int64_t kFirstProbeInterval_ns = 25'000'000;  // of the first kFirstProbes: to join quickly
+  static constexpr std::size_t kFirstProbes = 12;
+  static constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
   // Of a few answers one was on the way without a queue. A first offset by one answer was wrong by 50 ms on a bad line.
   static constexpr std::size_t kEnoughAnswers = 6;
   struct Host {
@@ -186,9 +219,29 @@ class Hosts {
     std::uint64_t refused = 0;
     SharedName name;
   };
-  // Number of samples that DDS may deliver again when two hosts meet.
-  static std::uint64_t max_repeats(dds::Topic topic);
-  Host* host_of(std::uint64_t id, bool add);
+  // Number of samples that DDS may deliver again when two hosts meet: the stored history of all instances of a host.
+  // Half of the instances of a topic are room for others.
+  static std::uint64_t max_repeats(dds::Topic topic) {
+    constexpr std::uint64_t kMin = 64;
+    const dds::TopicSettings& settings = settings_of(topic);
+    return std::max(settings.instances / 2 * static_cast<std::uint64_t>(settings.depth), kMin);
+  }
+  Host* host_of(std::uint64_t id, bool add) {
+    if (const Host* known = std::as_const(*this).host_of(id)) return const_cast<Host*>(known);
+    if (!add || id == self().id) return nullptr;
+    Host host;
+    host.view.id = id;
+    if (hosts_.size() + 1 < databuffer::kMaxHosts) return &hosts_.emplace_back(std::move(host));
+    // A host that has left makes room, one that never announced itself first.
+    const auto oldest =
+        std::ranges::min_element(hosts_, {}, [](const Host& other) { return std::pair(other.alive, other.heard_ns); });
+    if (oldest->alive) {
+      log::warning("expected at most " + std::to_string(databuffer::kMaxHosts) + " hosts, found another");
+      return nullptr;
+    }
+    *oldest = std::move(host);
+    return &*oldest;
+  }
   const Host* host_of(std::uint64_t id) const {
     const auto found = std::ranges::find(hosts_, id, [](const Host& host) { return host.view.id; });
     return found == hosts_.end() ? nullptr : &*found;
@@ -200,7 +253,19 @@ class Hosts {
         "host " + host.view.name + (host.left ? " has left" : " is no longer heard"));
     update_views();
   }
-  void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);
+  // A host that is heard for the first time, again after silence, or with a new gateway.
+  void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns) {
+    const bool was_alive = std::exchange(host.alive, true);
+    host.left = false;
+    host.view.name = text::text_of(sample.name);
+    host.offset = {};
+    host.next_probe_ns = now_ns;
+    host.differences = 0;
+    host.began_ns = now_ns;
+    readmit(host, sample.start);
+    if (was_alive && host.name.is_shared(now_ns)) return;  // each of those with the name would be said again and again
+    say(log::info, databuffer::NoteKind::restart, "hears host " + host.view.name);
+  }
   // A process that another one with its name seemed to have replaced is the one that goes on.
   static void readmit(Host& host, std::uint64_t start) {
     for (SampleNumbers& numbers : host.numbers) numbers.readmit(start);
@@ -228,13 +293,33 @@ class Hosts {
     own_.group = self().group;
     if (link_ != nullptr) link_->write(own_);
   }
-  void ask(std::int64_t now_ns);
+  void ask(std::int64_t now_ns) {
+    for (Host& host : hosts_) {
+      if (!host.alive || now_ns < host.next_probe_ns) continue;
+      host.next_probe_ns = now_ns + (host.offset.count() < kFirstProbes ? kFirstProbeInterval_ns : kProbeInterval_ns);
+      yars_net_ProbeSample question{};
+      question.from = self().id;
+      question.to = host.view.id;
+      question.asked_ns = databuffer::monotonic_ns();
+      if (link_ != nullptr) link_->write(question);
+    }
+  }
   void update_views() {
     views_.resize(1);
     for (const Host& host : hosts_)
       if (host.alive && !host.other_layout) views_.push_back(host.view);
   }
-  void update_group(std::int64_t now_ns);
+  // Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with
+  // it. A process that was stopped for longer than the lease was alone.
+  void update_group(std::int64_t now_ns) {
+    if (now_ns - std::exchange(last_pass_ns_, now_ns) > kLease_ns) group_sizes_ = {{now_ns - kGroupDelay_ns, 1}};
+    const auto heard = static_cast<std::uint32_t>(views_.size());
+    if (group_sizes_.empty() || group_sizes_.back().second != heard) group_sizes_.emplace_back(now_ns, heard);
+    while (group_sizes_.size() > 1 && group_sizes_[1].first <= now_ns - kGroupDelay_ns) group_sizes_.pop_front();
+    if (in_conflict_) return;
+    const bool is_old = group_sizes_.front().first <= now_ns - kGroupDelay_ns;
+    views_.front().group = is_old ? group_sizes_.front().second : 1;
+  }
 
   databuffer::Session* session_;
   dds::Link* link_;

@@ -27,7 +27,7 @@ class LockstepExchange {
     for (std::size_t role = 0; role < done_.size(); ++role) {
       if (done_[role] <= known_[role]) continue;  // of another host
       known_[role] = done_[role];
-      performers_[role] = {};
+      performers_[role] = 0;
       auto sample = context.made<yars_net_LockstepSample>();
       sample.role = static_cast<std::uint32_t>(role);
       sample.done_tick = done_[role];
@@ -55,7 +55,10 @@ class LockstepExchange {
   // Applies the done ticks whose samples have all arrived, after those of the roles before. `in_order`: no record that
   // has arrived waits for another.
   void apply(Context& context, bool in_order) {
-    if (in_order) complete_ticks(context);
+    // Role after role in the order of a tick, so that one done tick may admit the next in the same pass.
+    for (std::size_t role = 0; in_order && role < databuffer::kLockstepRoles; ++role)
+      for (auto& [host, partner] : partners_)
+        if (auto& waiting = partner.waiting[role]; waiting && complete(context, partner, *waiting)) waiting.reset();
     watch_hosts(context);
   }
 
@@ -70,10 +73,6 @@ class LockstepExchange {
     return end_tick < 0 ? kNoEnd : static_cast<std::uint32_t>(std::min<std::int64_t>(end_tick, kNoEnd - 2) + 1);
   }
 
-  static std::string end_text(std::uint32_t end) {
-    return end == kNoEnd ? "without end" : "to tick " + std::to_string(end - 1);
-  }
-
   // Index of a host in the NetworkStatus that this gateway publishes; 0: not there.
   static std::uint32_t status_index(const Context& context, std::uint64_t host) {
     const auto status = databuffer::read_valid(context.layout().network_status);
@@ -82,11 +81,6 @@ class LockstepExchange {
     return 0;
   }
 
-  // The host that did the last tick of a role.
-  struct Performer {
-    std::uint64_t host = 0;    // 0: this host, or not known
-    std::int64_t gone_ns = 0;  // [ns] time without that host, as far as this process ran
-  };
   // Another host of the run.
   struct Partner {
     std::array<std::optional<yars_net_LockstepSample>, databuffer::kLockstepRoles> waiting;  // newest of each role
@@ -107,6 +101,9 @@ class LockstepExchange {
   static void compare_end(const Context& context, Partner& partner, const yars_net_LockstepSample& sample) {
     const std::uint32_t own = end_word(context.layout().lockstep);
     const HostView* host = context.hosts.find(sample.host);
+    const auto end_text = [](std::uint32_t end) {
+      return end == kNoEnd ? "without end" : "to tick " + std::to_string(end - 1);
+    };
     if (sample.end == own) partner.has_other_end = false;
     if (host == nullptr || sample.end == 0 || sample.end == own || std::exchange(partner.has_other_end, true)) return;
     context.hosts.say(log::warning, databuffer::NoteKind::refusal,
@@ -119,15 +116,14 @@ class LockstepExchange {
     const std::int64_t elapsed_ns = std::min(context.now_ns - std::exchange(watched_ns_, context.now_ns), kMaxPass_ns);
     std::size_t lost = performers_.size();
     for (std::size_t role = 0; role < performers_.size(); ++role) {
-      Performer& performer = performers_[role];
-      if (performer.host == 0) continue;
-      const HostView* host = context.hosts.find(performer.host);
-      performer.gone_ns = host != nullptr || has_ended(context, role) ? 0 : performer.gone_ns + elapsed_ns;
-      if (performer.gone_ns > (lost < performers_.size() ? performers_[lost].gone_ns : kGone_ns)) lost = role;
+      if (performers_[role] == 0) continue;
+      const bool is_here = context.hosts.find(performers_[role]) != nullptr;
+      gone_ns_[role] = is_here || has_ended(context, role) ? 0 : gone_ns_[role] + elapsed_ns;
+      if (gone_ns_[role] > (lost < performers_.size() ? gone_ns_[lost] : kGone_ns)) lost = role;
     }
     std::uint32_t word = 0;
     if (lost < performers_.size())
-      word = static_cast<std::uint32_t>(lost + 1) | status_index(context, performers_[lost].host) << 8;
+      word = static_cast<std::uint32_t>(lost + 1) | status_index(context, performers_[lost]) << 8;
     context.session.layout().network.lost_role.store(word, std::memory_order_release);
   }
 
@@ -136,16 +132,9 @@ class LockstepExchange {
     const auto& lockstep = context.layout().lockstep;
     const std::int64_t end_tick = lockstep.end_tick.load(std::memory_order_relaxed);
     if (end_tick < 0) return false;
-    const Partner* partner = partners_.find(performers_[role].host);
+    const Partner* partner = partners_.find(performers_[role]);
     return lockstep.done_tick[role].load(std::memory_order_acquire) >= end_tick ||
            (partner != nullptr && partner->waiting[role] && partner->waiting[role]->done_tick >= end_tick);
-  }
-
-  // Role after role in the order of a tick, so that one done tick may admit the next in the same pass.
-  void complete_ticks(Context& context) {
-    for (std::size_t role = 0; role < databuffer::kLockstepRoles; ++role)
-      for (auto& [host, partner] : partners_)
-        if (auto& waiting = partner.waiting[role]; waiting && complete(context, partner, *waiting)) waiting.reset();
   }
 
   // False: the tick waits.
@@ -159,7 +148,7 @@ class LockstepExchange {
     if (lockstep.done_tick[role].load(std::memory_order_acquire) >= sample.done_tick) return true;
     if (!others_are_done(lockstep, role, sample.done_tick)) return false;
     known_[role] = sample.done_tick;
-    if (performers_[role].host != sample.host) performers_[role] = {.host = sample.host};
+    if (std::exchange(performers_[role], sample.host) != sample.host) gone_ns_[role] = 0;
     runtime::complete_tick(lockstep, role, sample.done_tick);
     return true;
   }
@@ -178,7 +167,9 @@ class LockstepExchange {
 
   std::array<std::int64_t, databuffer::kLockstepRoles> done_{}, known_{};  // by local roles; sent or written here
   HostMemory<Partner> partners_;
-  std::array<Performer, databuffer::kLockstepRoles> performers_;
+  // Host that did the last tick of each role, 0: this one, or not known; [ns] time without it, while this process ran.
+  std::array<std::uint64_t, databuffer::kLockstepRoles> performers_{};
+  std::array<std::int64_t, databuffer::kLockstepRoles> gone_ns_{};
   std::int64_t watched_ns_ = 0;
 };
 

@@ -80,16 +80,14 @@ class MapExchange {
     std::ranges::sort(ids);
     for (const std::uint64_t id : ids) {
       if (id == 0 || std::ranges::find(sent_, id, &Sent::id) != sent_.end()) continue;
-      Sent sent;
       databuffer::PatchMap map{};
-      if (!databuffer::read_patch(layout, id, map, sent.pixels) || validate(map)) continue;
-      sent.id = id;
-      sent.size = map.size;
+      std::vector<std::uint8_t> pixels;
+      if (!databuffer::read_patch(layout, id, map, pixels) || validate(map)) continue;
       auto sample = context.made<yars_net_PatchMapSample>();
       sample.id = id;
       copy_record(sample.map, map);
       context.write(sample);
-      sent_.push_back(std::move(sent));
+      sent_.push_back({id, map.size, 0, std::move(pixels)});
     }
   }
 

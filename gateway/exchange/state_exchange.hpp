@@ -14,24 +14,22 @@
 
 namespace yars::gateway {
 
-// Numbers of lanes in a sample that is sent: those that they have on their own hosts.
+// Lanes in a sample have the numbers that they have on their own hosts. `leaves`: the sample is to be sent; else it has
+// been received and gets the numbers of the lanes here.
 template <class Sample>
-void name_lanes(Sample& sample, const LaneNames& lanes, std::uint64_t self) {
+void translate_lanes(Sample& sample, const LaneNames& lanes, std::uint64_t self, bool leaves) {
   if constexpr (std::is_same_v<Sample, yars_net_AdviceSample>) {
-    lanes.input_name(sample.advice.idle_lane, self).write_to(sample.sender, sample.advice.idle_lane);
+    std::uint32_t& lane = sample.advice.idle_lane;
+    if (leaves)
+      lanes.input_name(lane, self).write_to(sample.sender, lane);
+    else if (sample.sender != self)
+      lane = kNoLane;
   } else if constexpr (std::is_same_v<Sample, yars_net_ModelStatusSample>) {
-    lanes.ownship_name(sample.status.ownship_lane, self).write_to(sample.ownship_host, sample.status.ownship_lane);
-  }
-}
-
-// Numbers of lanes in a sample that was received: those that they have here.
-template <class Sample>
-void number_lanes(Sample& sample, const LaneNames& lanes, std::uint64_t self) {
-  if constexpr (std::is_same_v<Sample, yars_net_AdviceSample>) {
-    if (sample.sender != self) sample.advice.idle_lane = kNoLane;
-  } else if constexpr (std::is_same_v<Sample, yars_net_ModelStatusSample>) {
-    sample.status.ownship_lane =
-        lanes.local_ownship_lane({sample.ownship_host, sample.status.ownship_lane}, self, kNoLane);
+    std::uint32_t& lane = sample.status.ownship_lane;
+    if (leaves)
+      lanes.ownship_name(lane, self).write_to(sample.ownship_host, lane);
+    else
+      lane = lanes.local_ownship_lane({sample.ownship_host, lane}, self, kNoLane);
   }
 }
 
@@ -51,7 +49,7 @@ class State {
     if (!reader_.has_value() || !pace_.is_due(is_new, context.now_ns, context.lockstep ? 0 : least_ns_)) return;
     auto sample = context.made<Sample>();
     copy_record(sample.*field_, reader_.value());
-    name_lanes(sample, lanes, context.hosts.self().id);
+    translate_lanes(sample, lanes, context.hosts.self().id, true);
     context.write(sample);
   }
   // Publishes the record of the host that has the role. Samples of other hosts, or of other topics, are left out.
@@ -60,7 +58,7 @@ class State {
     if constexpr (std::is_same_v<Other, Sample>) {
       if (!context.hosts.is_new(other) || context.roles.source(role_) != other.host) return;
       Sample sample = other;
-      number_lanes(sample, lanes, context.hosts.self().id);
+      translate_lanes(sample, lanes, context.hosts.self().id, false);
       if (const auto record = context.valid<Record>(sample, sample.*field_))
         publish_changed(context.session.layout().*slot_, *record);  // a repeated state is no new version
     }

@@ -70,8 +70,8 @@ class WorldExchange {
       return std::nullopt;
     }
     const auto& layout = context.layout();
-    const Versions versions{layout.world.version(), layout.world_latched.next(), layout.world_configured.version(),
-                            answer_count_};
+    const std::array versions{layout.world.version(), layout.world_latched.next(), layout.world_configured.version(),
+                              answer_count_};
     if (versions == said_) return std::nullopt;
     const auto newest = databuffer::newest_world(layout);
     if (!newest) return std::nullopt;
@@ -126,8 +126,6 @@ class WorldExchange {
     databuffer::WorldAnswer answer = databuffer::WorldAnswer::none;
     std::int64_t applied_ns = 0;  // its last change that took effect
   };
-  // Numbers by which a change is found without reading the records: of world, world_latched, world_configured, answers.
-  using Versions = std::array<std::uint64_t, 4>;
 
   // The last record is in effect, so that a gateway begins with it.
   void send_latched(Context& context) {
@@ -159,13 +157,9 @@ class WorldExchange {
     written_start_ = sample.start;
     written_number_ = sample.number;
     written_version_ = layout.world.version();
-    if (!is_written) write_answer(context, sample);
-  }
-
-  void write_answer(Context& context, const yars_net_WorldSample& sample) const {
-    auto& requests = context.session.layout().world_requests;
+    auto& requests = layout.world_requests;
     for (const auto& answer : sample.answers)
-      if (answer.host == context.hosts.self().id && answer.segment == context.segment() &&
+      if (!is_written && answer.host == context.hosts.self().id && answer.segment == context.segment() &&
           answer.request == requests.asked.load(std::memory_order_acquire))
         requests.answered.store(answer.request << 8 | (answer.answer & 0xFFU), std::memory_order_release);
   }
@@ -245,7 +239,8 @@ class WorldExchange {
   WorldNumbers* numbers_;
   // On radar-model's host.
   std::optional<std::uint64_t> latched_cursor_;  // next record of the ring to send; nullopt: none was sent
-  Versions said_{};
+  // Numbers by which a change is found without reading the records: of world, world_latched, world_configured, answers.
+  std::array<std::uint64_t, 4> said_{};
   std::uint64_t answer_count_ = 0;
   HostMemory<Editor> editors_;
   // On the others.
