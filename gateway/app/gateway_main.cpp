@@ -68,7 +68,7 @@ class GatewayShell {
     link_.wait(next_pass_ns_ - databuffer::monotonic_ns());
     hosts_.exchange_probes();
     context_.now_ns = databuffer::monotonic_ns();
-    events_.receive_inputs(context_);
+    context_.take<yars_net_InputEventSample>(events_);
     if (context_.now_ns < next_pass_ns_) return;
     pass();
     const std::int64_t interval_ns = context_.lockstep ? kLockstepPass_ns : kPass_ns;

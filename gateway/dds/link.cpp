@@ -26,9 +26,6 @@ void add_message(const std::string& text) {
   const std::lock_guard guard(messages.mutex);
   messages.limit.add(text, messages.now_ns);
 }
-void receive_message(void*, const dds_log_data_t* data) {
-  add_message(std::string(text::trimmed({data->message, data->size})));
-}
 std::vector<std::string> taken_messages(std::int64_t now_ns) {
   const std::lock_guard guard(messages.mutex);
   messages.now_ns = std::max(messages.now_ns, now_ns);
@@ -205,7 +202,9 @@ bool Link::State::is_from(Topic topic, dds_instance_handle_t writer, std::uint64
 
 error::Expected<Link> Link::open(const radar::NetworkSettings& settings, const std::string& session) {
   auto state = std::make_unique<State>(settings);
-  dds_set_log_sink(&receive_message, nullptr);
+  dds_set_log_sink(
+      [](void*, const dds_log_data_t* data) { add_message(std::string(text::trimmed({data->message, data->size}))); },
+      nullptr);
   const auto id = static_cast<dds_domainid_t>(settings.domain);
   state->domain = dds_create_domain(id, domain_configuration(settings).c_str());
   if (state->domain < 0) return fail_link(settings, "a configuration that Cyclone DDS accepts", state->domain);

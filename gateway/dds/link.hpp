@@ -156,8 +156,7 @@ class Link {
   static std::size_t bytes_of(const Sample& sample) {
     if constexpr (std::is_same_v<Sample, yars_net_SweepSample>)
       return sizeof sample - sizeof sample.video + sample.video._length;
-    else
-      return sizeof sample;
+    return sizeof sample;
   }
   // Host that a sample names as its writer.
   template <class Sample>

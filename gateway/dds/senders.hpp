@@ -81,21 +81,16 @@ class Senders {
   static constexpr std::size_t kMaxWriters = 256;      // of a topic
   static constexpr std::size_t kMaxRemembered = 4096;  // writers, with those that have ended
 
-  static std::string name_of(const dds_builtintopic_endpoint_t& endpoint) {
-    void* value = nullptr;
-    std::size_t size = 0;
-    if (endpoint.qos == nullptr || !dds_qget_groupdata(endpoint.qos, &value, &size) || value == nullptr) return "";
-    std::string name(static_cast<const char*>(value), size);
-    dds_free(value);
-    return name;
-  }
-
   // 0: the name is not that of the certificate; nullopt: DDS does not know the writer, which may have ended.
   static std::optional<std::uint64_t> read_host(dds_entity_t reader, dds_instance_handle_t writer) {
     const std::unique_ptr<dds_builtintopic_endpoint_t, decltype(&dds_builtintopic_free_endpoint)> endpoint(
         dds_get_matched_publication_data(reader, writer), dds_builtintopic_free_endpoint);
     if (!endpoint) return std::nullopt;
-    const std::string name = name_of(*endpoint);
+    void* value = nullptr;
+    std::size_t size = 0;
+    if (endpoint->qos == nullptr || !dds_qget_groupdata(endpoint->qos, &value, &size) || value == nullptr) return 0;
+    const std::string name(static_cast<const char*>(value), size);
+    dds_free(value);
     for (const NameEncoding encoding : {NameEncoding::utf8, NameEncoding::printable})
       if (std::ranges::equal(guid_prefix_of(name, encoding), std::span(endpoint->participant_key.v).first<6>()))
         return host_id(name);

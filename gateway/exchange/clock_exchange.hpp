@@ -291,8 +291,8 @@ class ClockExchange {
     const std::int64_t at_ns = std::max(context.now_ns, wanted.base_monotonic_ns);
     copy_record(sample.before, databuffer::rebased(before, at_ns));
     copy_record(sample.clock, databuffer::rebased(wanted, at_ns));
-    sample.clock.base_monotonic_ns = std::max<std::int64_t>(at_ns + followed_->offset.offset_ns(), 0);
-    sample.before.base_monotonic_ns = sample.clock.base_monotonic_ns;
+    sample.before.base_monotonic_ns = sample.clock.base_monotonic_ns =
+        std::max<std::int64_t>(at_ns + followed_->offset.offset_ns(), 0);
     context.write(sample);
   }
 

@@ -51,8 +51,6 @@ class EventExchange {
       context.take<yars_net_AppliedEventSample>(*this);
   }
 
-  void receive_inputs(Context& context) { context.take<yars_net_InputEventSample>(*this); }  // they are awaited
-
   void receive(Context& context, const yars_net_InputEventSample& sample) {
     context.hosts.is_new(sample);  // counted only: whether the event is new depends on its number in its lane
     if (sample.machine_term != context.hosts.machine_term() || sample.lane >= databuffer::kInputLanes ||
@@ -181,8 +179,7 @@ class EventExchange {
 
   Receiving* receiving_from(Context& context, const yars_net_InputEventSample& sample) {
     const std::uint64_t id = lane_id(sample.host, sample.segment, sample.lane);
-    const auto found = receiving_.find(id);
-    if (found != receiving_.end()) return &found->second;
+    if (const auto found = receiving_.find(id); found != receiving_.end()) return &found->second;
     constexpr std::size_t kMaxRemoteLanes = databuffer::kMaxHosts * databuffer::kInputLanes;
     if (receiving_.size() >= kMaxRemoteLanes) return nullptr;
     Receiving receiving{sample.host, sample.lane, sample.segment};

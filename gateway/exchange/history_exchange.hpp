@@ -8,8 +8,6 @@
 //   of an earlier epoch are left out.
 #pragma once
 
-#include <deque>
-
 #include "databuffer/messages/record_hashes.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"

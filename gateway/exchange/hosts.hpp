@@ -259,9 +259,8 @@ class Hosts {
     host.left = false;
     host.view.name = text::text_of(sample.name);
     host.offset = {};
-    host.next_probe_ns = now_ns;
     host.differences = 0;
-    host.began_ns = now_ns;
+    host.began_ns = host.next_probe_ns = now_ns;
     readmit(host, sample.start);
     if (was_alive && host.name.is_shared(now_ns)) return;  // each of those with the name would be said again and again
     say(log::info, databuffer::NoteKind::restart, "hears host " + host.view.name);

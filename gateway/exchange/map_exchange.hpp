@@ -4,8 +4,6 @@
 // Errors: an invalid map is refused, counted and noted. A map without a free slot is noted.
 #pragma once
 
-#include <vector>
-
 #include "databuffer/session/picture_pool.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"

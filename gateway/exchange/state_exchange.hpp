@@ -153,17 +153,16 @@ class StateExchange {
   // other hosts see the next lane. In lockstep a record is repeated, because a host that joins would wait for it.
   void send_ownship(Context& context) {
     const auto& layout = context.layout();
-    for (std::size_t lane = 0; lane < databuffer::kOwnshipLanes; ++lane) {
-      const auto number = static_cast<std::uint32_t>(lane);
+    for (std::uint32_t lane = 0; lane < databuffer::kOwnshipLanes; ++lane) {
       SentLane& sent = sent_lanes_[lane];
       if (lanes_->ownship_lane == lane || !std::as_const(context.session).ownship_lane_is_held(lane)) {
-        context.link->end_ownship(number);
+        context.link->end_ownship(lane);
         continue;
       }
       const std::uint64_t version = layout.ownship[lane].version();
       const bool repeats = context.lockstep && context.now_ns - sent.sent_ns > kLockstepRefresh_ns;
       if (version == sent.version && !repeats) {
-        if (!context.lockstep && context.now_ns - sent.sent_ns > kLease_ns) context.link->end_ownship(number);
+        if (!context.lockstep && context.now_ns - sent.sent_ns > kLease_ns) context.link->end_ownship(lane);
         continue;
       }
       const auto ownship = databuffer::read_valid(layout.ownship[lane]);
@@ -172,13 +171,13 @@ class StateExchange {
       sent.sent_ns = context.now_ns;
       auto sample = context.made<yars_net_OwnshipSample>();
       sample.priority = layout.ownship_priority[lane].load(std::memory_order_acquire);
-      sample.lane = number;
+      sample.lane = lane;
       copy_record(sample.ownship, *ownship);
       if (const auto nav = databuffer::read_valid(layout.nav[lane]))
         copy_record(sample.nav, *nav);
       else
         sample.nav.mission_latitude_deg = std::numeric_limits<double>::quiet_NaN();  // none
-      context.link->write_ownship(number, sample);
+      context.link->write_ownship(lane, sample);
     }
   }
 
