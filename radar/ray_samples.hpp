@@ -1,4 +1,6 @@
 // Ground under the samples of the middle ray of each sweep of a scan, lit or in shadow.
+// Inputs: a configuration, the positions of a scan's sweeps, terrain.
+// Outputs: a RaySample for each sample of each sweep. Units: as the suffix of each name says; positions are WGS84.
 #pragma once
 
 #include <span>

@@ -8,6 +8,7 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/radar/mission.hpp"
+#include "lib/radar/world.hpp"
 #include "statemachine/maps.hpp"
 #include "statemachine/remedies.hpp"
 
@@ -144,7 +145,6 @@ namespace {
 
 constexpr int kMaxLevel = 15;  // maximum of brightness and contrast; the display assumes this value
 constexpr std::uint8_t kMaxGain = 3;
-constexpr std::uint8_t kChannels = 8;
 constexpr std::uint8_t kBands = 5;
 
 void toggle(Step& step, std::uint32_t flag) {
@@ -211,7 +211,7 @@ void toggle_sniff(Step& step) {
 }
 
 void next_channel(Step& step) {
-  step.state.channel = static_cast<std::uint8_t>(step.state.channel % kChannels + 1);
+  step.state.channel = static_cast<std::uint8_t>(step.state.channel % radar::kChannels + 1);
 }
 
 void next_band(Step& step) {

@@ -45,10 +45,10 @@ struct Joining {
 // Inputs: the local segment; samples of other hosts.
 // Outputs: samples; records of other hosts in the local segment; NetworkStatus twice a second.
 // Source: docs/network.md.
-class GatewayShell {
+class Gateway {
  public:
   // `joining` must outlive the object.
-  GatewayShell(databuffer::Session& session, const std::string& session_name, dds::Link link, const Joining& joining)
+  Gateway(databuffer::Session& session, const std::string& session_name, dds::Link link, const Joining& joining)
       : link_(std::move(link)),
         session_(&session),
         joining_(&joining),
@@ -261,7 +261,7 @@ error::Expected<bool> join(const runtime::ProgramOptions& options, Joining& join
   joining.identity.segment = segment_number(*session);
   log::info("host " + joining.identity.name + " joins session " + options.session + ", DDS domain " +
             std::to_string(joining.settings.domain) + (joining.settings.security.empty() ? "" : ", encrypted"));
-  GatewayShell shell(*session, options.session, std::move(*link), joining);
+  Gateway shell(*session, options.session, std::move(*link), joining);
   while (!runtime::stop_requested()) {
     shell.step();
     const std::string host = shell.take_lost_handshake();

@@ -1,4 +1,5 @@
 // `yars trade` and `yars trade maps`: options, measurement, output. The Python module measures with the same functions.
+// Inputs: options of the commands, a folder of terrain. Outputs: a table of errors and costs, as text, JSON or a file.
 // Errors: functions that check options, measure, read a directory or write files throw CommandFailed.
 #pragma once
 
