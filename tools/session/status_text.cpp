@@ -198,7 +198,10 @@ std::string words_of(const databuffer::ShownField& field) {
           const bool is_size = field.unit == "bytes";
           if (std::isnan(static_cast<double>(value))) return {};
           std::array<char, 32> buffer;
-          std::snprintf(buffer.data(), buffer.size(), is_size ? "%.1f MB" : "%.9g",
+          std::snprintf(buffer.data(), buffer.size(),
+                        is_size                         ? "%.1f MB"
+                        : std::is_same_v<Value, double> ? "%g"
+                                                        : "%.0f",
                         static_cast<double>(value) * (is_size ? 1e-6 : 1.0));
           if (is_size) return buffer.data();
           return stem + ' ' + buffer.data() + (field.unit.empty() ? "" : " ") + std::string(field.unit);

@@ -241,6 +241,8 @@ TEST_F(NetworkStatusTest, ARecordIsShownWhileItsWriterRuns) {
   gateway_->layout().recorder_status.publish(written);
   host(1, "beta").held_roles = bit(Role::radar_model);
   EXPECT_EQ(status()["recorder"], nullptr);
+  role_.reset();
+  gateway_.reset();
   const auto recorder = open("recorder");
   EXPECT_EQ(status()["recorder"], (ordered_json{{"bytes", 20'140'000}, {"writing", true}, {"problem", nullptr}}));
   EXPECT_THAT(printed(), HasSubstr("\nrecorder: 20.1 MB, writing\n"));
