@@ -12,63 +12,72 @@
 
 namespace yars::radar {
 
-namespace {
-std::unique_ptr<model::terrain::TerrainStore> open_store(const TerrainConfiguration& terrain) {
-  auto store = model::terrain::open_terrain(terrain);
+std::unique_ptr<model::terrain::TerrainStore> TheatreFiles::open_terrain() const {
+  auto store = model::terrain::open_terrain(terrain_);
   if (!store) fail(store.error());
   return std::move(*store);
 }
-}  // namespace
+
+const model::scene::SceneIndex& TheatreFiles::scenes() {
+  if (scenes_) return *scenes_;
+  auto index = model::scene::index_with_terrain(configured_, terrain_);
+  if (!index) fail(index.error());
+  return scenes_.emplace(std::move(*index));
+}
+
+TheatreStores TheatreFiles::open(model::scene::SceneUse use) {
+  TheatreStores stores{open_terrain(), use == model::scene::SceneUse::triangles ? open_terrain() : nullptr, nullptr};
+  auto opened = model::scene::open_scenes(scenes(), terrain_, use);
+  if (!opened) fail(opened.error());
+  stores.scenes = std::move(*opened);
+  return stores;
+}
 
 Theatre::Theatre(const TerrainConfiguration& terrain, const std::vector<Scene>& scenes, model::scene::SceneUse use)
-    : folder_(terrain.directory), window_store_(open_store(terrain)) {
-  if (use == model::scene::SceneUse::triangles) path_store_ = open_store(terrain);
-  auto opened = model::scene::open_scenes(scenes, terrain, use);
-  if (!opened) fail(opened.error());
-  scenes_ = std::move(*opened);
-}
+    : folder_(terrain.directory), stores_(TheatreFiles(terrain, scenes).open(use)) {}
 
 ScanEnvironment Theatre::prepare(const model::kernel::ScanRequest& request, const Fidelity& fidelity,
                                  const Warn& warn) {
   const model::terrain::TerrainRegion region{request.pose.position, request.range.metres(),
                                              model::kernel::scan_detail(fidelity, request.range)};
-  ScanEnvironment environment{window_store_->prepare(region), scenes_ ? scenes_->prepare(region) : nullptr};
-  check_terrain_read(warn, folder_, *window_store_);
-  if (scenes_) check_scenes_read(warn, *scenes_);
+  ScanEnvironment environment{stores_.window->prepare(region),
+                              stores_.scenes ? stores_.scenes->prepare(region) : nullptr};
+  check_terrain_read(warn, folder_, *stores_.window);
+  if (stores_.scenes) check_scenes_read(warn, *stores_.scenes);
   return environment;
 }
 
 model::hrm::PatchEnvironment Theatre::prepare(const model::hrm::PatchNeed& need, const Warn& warn) {
-  model::hrm::PatchEnvironment environment{window_store_->prepare(need.window), path_store_->prepare(need.path),
-                                           scenes_ ? scenes_->prepare(need.window) : nullptr};
-  if (scenes_) check_scenes_read(warn, *scenes_);
-  check_terrain_read(warn, folder_, *window_store_, path_store_.get());
+  model::hrm::PatchEnvironment environment{stores_.window->prepare(need.window), stores_.path->prepare(need.path),
+                                           stores_.scenes ? stores_.scenes->prepare(need.window) : nullptr};
+  if (stores_.scenes) check_scenes_read(warn, *stores_.scenes);
+  check_terrain_read(warn, folder_, *stores_.window, stores_.path.get());
   return environment;
 }
 
 std::vector<std::string> Theatre::left_out() const {
   LeftOut all;
-  for (const auto* store : {window_store_.get(), path_store_.get()})
+  for (const auto* store : {stores_.window.get(), stores_.path.get()})
     if (store != nullptr) all.add(*store);
-  if (scenes_) all.add(*scenes_);
+  if (stores_.scenes) all.add(*stores_.scenes);
   return all.sentences();
 }
 
 model::scene::SceneViewPointer Theatre::scenes_near(geo::GeoPoint position, double radius_m, const Warn& warn) {
-  if (!scenes_) return nullptr;
-  auto view = scenes_->prepare({position, radius_m, 0});
-  check_scenes_read(warn, *scenes_);
+  if (!stores_.scenes) return nullptr;
+  auto view = stores_.scenes->prepare({position, radius_m, 0});
+  check_scenes_read(warn, *stores_.scenes);
   return view;
 }
 
 const model::terrain::DirectoryIndex* Theatre::index() const {
-  const auto* const files = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(window_store_.get());
+  const auto* const files = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(stores_.window.get());
   return files == nullptr ? nullptr : &files->index();
 }
 
 model::terrain::TerrainViewPointer Theatre::terrain_at(geo::GeoPoint position, const Warn& warn) {
-  auto view = window_store_->prepare({position, 0.0, 0});
-  check_terrain_read(warn, folder_, *window_store_);
+  auto view = stores_.window->prepare({position, 0.0, 0});
+  check_terrain_read(warn, folder_, *stores_.window);
   return view;
 }
 

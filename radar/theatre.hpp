@@ -1,5 +1,6 @@
 // Theatre: terrain and scenes in which scans and patch maps are computed, without a session. The stores stay open, so
-// that later scans and maps find in memory what earlier ones have read.
+// that later scans and maps find in memory what earlier ones have read. TheatreFiles opens the stores, also for
+// programs with a session, which read in steps and in threads of their own.
 // Inputs: folder of elevation cells, scene files; regions of scans and maps. Outputs: views of terrain and scene.
 // Errors: the functions throw Failure for files that cannot be opened, or a region whose files are all unreadable.
 // Threads: one call at a time. Any number of threads may read the views.
@@ -7,10 +8,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "lib/radar/world.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_data.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/scene/index/scene_store.hpp"
@@ -19,9 +22,6 @@
 #include "yars/call.hpp"
 
 namespace yars::radar {
-
-struct Fidelity;
-struct TerrainConfiguration;
 
 // Takes a warning: one sentence.
 using Warn = std::function<void(const std::string&)>;
@@ -58,9 +58,35 @@ struct ScanEnvironment {
   model::scene::SceneViewPointer scene;  // null: none
 };
 
+// Stores of one use.
+struct TheatreStores {
+  std::unique_ptr<model::terrain::TerrainStore> window;  // terrain of scans, or of the window of a map
+  // Terrain between aircraft and window, which is coarser than that of the window; null for scans.
+  std::unique_ptr<model::terrain::TerrainStore> path;
+  std::unique_ptr<model::scene::SceneStore> scenes;  // null: none
+};
+
+// Terrain and scenes of a configuration, and scenes of the terrain's own folder.
+class TheatreFiles {
+ public:
+  TheatreFiles(TerrainConfiguration terrain, std::vector<Scene> scenes)
+      : terrain_(std::move(terrain)), configured_(std::move(scenes)) {}
+
+  std::unique_ptr<model::terrain::TerrainStore> open_terrain() const;
+  // Indexed at the first call.
+  const model::scene::SceneIndex& scenes();
+  // `use`: triangles for maps, scatterers for scans. The terrain is opened first, then the scenes.
+  TheatreStores open(model::scene::SceneUse use);
+
+ private:
+  TerrainConfiguration terrain_;
+  std::vector<Scene> configured_;
+  std::optional<model::scene::SceneIndex> scenes_;
+};
+
 class Theatre {
  public:
-  // Opens the stores. `use`: triangles for maps, scatterers for scans. Scenes of the terrain's own folder are added.
+  // Opens the stores (TheatreFiles).
   Theatre(const TerrainConfiguration& terrain, const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
 
   // Reads what a scan or a map needs. Problems of files are passed to `warn`.
@@ -80,9 +106,7 @@ class Theatre {
 
  private:
   std::string folder_;  // for messages
-  // Two stores: the ground of a map needs finer terrain than the ground between aircraft and map.
-  std::unique_ptr<model::terrain::TerrainStore> window_store_, path_store_;  // path: null for scans
-  std::unique_ptr<model::scene::SceneStore> scenes_;                         // null: none
+  TheatreStores stores_;
 };
 
 }  // namespace yars::radar

@@ -5,7 +5,8 @@
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/app/radar_model_shell.hpp"
-#include "model/terrain/store/directory_store.hpp"
+#include "radar/failure.hpp"
+#include "radar/theatre.hpp"
 #include "runtime/program.hpp"
 #include "runtime/role.hpp"
 
@@ -34,39 +35,26 @@ error::Expected<radar::RadarConfiguration> configure(const runtime::ProgramOptio
   return configuration;
 }
 
-// Patch maps have separate stores, so that the cells of a map do not evict the scan's cells from memory.
-error::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfiguration& configuration) {
-  auto window = model::terrain::open_terrain(configuration.terrain);
-  if (!window) return tl::unexpected(window.error());
-  auto path = model::terrain::open_terrain(configuration.terrain);
-  if (!path) return tl::unexpected(path.error());
-  auto scenes = model::scene::open_scenes(configuration.world.scenes, configuration.terrain);
-  if (!scenes) return tl::unexpected(scenes.error());
-  return model::PatchStores{std::move(*window), std::move(*path), std::move(*scenes)};
-}
-
 struct Stores {
-  std::unique_ptr<model::terrain::TerrainStore> terrain;
-  model::PatchStores patches;
-  std::unique_ptr<model::scene::SceneStore> scenes;
+  radar::TheatreStores scans, maps;
 };
 
+// Patch maps have separate stores, so that the cells of a map do not evict the scan's cells from memory.
 error::Expected<Stores> open_stores(const radar::RadarConfiguration& configuration) {
-  auto terrain = model::terrain::open_terrain(configuration.terrain);
-  if (!terrain) return tl::unexpected(terrain.error());
-  auto patches = open_patch_stores(configuration);
-  if (!patches) return tl::unexpected(patches.error());
-  auto scenes =
-      model::scene::open_scenes(configuration.world.scenes, configuration.terrain, model::scene::SceneUse::scatterers);
-  if (!scenes) return tl::unexpected(scenes.error());
-  return Stores{std::move(*terrain), std::move(*patches), std::move(*scenes)};
+  return radar::guarded([&] {
+    radar::TheatreFiles files(configuration.terrain, configuration.world.scenes);
+    auto scans = files.open(model::scene::SceneUse::scatterers);
+    return Stores{std::move(scans), files.open(model::scene::SceneUse::triangles)};
+  });
 }
 
 struct Loaders {
   Loaders(Stores stores, const radar::RadarConfiguration& configuration, bool synchronous)
-      : terrain(std::move(stores.terrain), synchronous),
-        scenes(std::move(stores.scenes), synchronous),
-        patches(configuration, std::move(stores.patches), synchronous) {}
+      : terrain(std::move(stores.scans.window), synchronous),
+        scenes(std::move(stores.scans.scenes), synchronous),
+        patches(configuration,
+                {std::move(stores.maps.window), std::move(stores.maps.path), std::move(stores.maps.scenes)},
+                synchronous) {}
 
   model::TerrainLoader terrain;
   model::SceneLoader scenes;

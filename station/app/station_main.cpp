@@ -16,9 +16,8 @@
 #include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
-#include "model/scene/index/scene_index.hpp"
-#include "model/scene/index/scene_store.hpp"
-#include "model/terrain/store/directory_store.hpp"
+#include "radar/failure.hpp"
+#include "radar/theatre.hpp"
 #include "runtime/process.hpp"
 #include "runtime/program.hpp"
 #include "station/app/server_shell.hpp"
@@ -129,14 +128,10 @@ error::Expected<std::vector<geo::GeoPoint>> waypoints_of(const std::string& sour
 }
 
 // Names of the files of scenes, with blanks, and their positions.
-error::Expected<std::vector<station::Place>> places_of(const radar::RadarConfiguration& configuration) {
+std::vector<station::Place> places_of(const model::scene::SceneIndex& scenes) {
   std::vector<station::Place> places;
-  std::vector<std::string> problems;
-  const auto scenes = model::scene::scenes_with_terrain(configuration.world.scenes, configuration.terrain);
-  const auto index = model::scene::index_scenes(scenes, problems);
-  if (!index) return tl::unexpected(index.error());
-  for (const std::string& problem : problems) log::warning(problem);
-  for (const model::scene::IndexedScene& scene : *index) {
+  for (const std::string& problem : scenes.problems) log::warning(problem);
+  for (const model::scene::IndexedScene& scene : scenes.scenes) {
     std::string name = scene.file.stem().string();
     std::ranges::replace(name, '_', ' ');
     places.push_back({std::move(name), scene.placement.position});
@@ -146,7 +141,8 @@ error::Expected<std::vector<station::Place>> places_of(const radar::RadarConfigu
 
 error::Expected<station::ServerSettings> settings_of(const runtime::ProgramOptions& options,
                                                      const StationOptions& station_options,
-                                                     const radar::RadarConfiguration& configuration) {
+                                                     const radar::RadarConfiguration& configuration,
+                                                     radar::TheatreFiles& files) {
   station::ServerSettings settings;
   settings.pages = station_options.pages;
   if (settings.pages.empty()) settings.pages = file::installed_folder("station");
@@ -170,7 +166,7 @@ error::Expected<station::ServerSettings> settings_of(const runtime::ProgramOptio
                    station_options.start_script};
   const auto route = waypoints_of(station_options.source);
   if (!route) return tl::unexpected(route.error());
-  const auto places = places_of(configuration);
+  const auto places = radar::guarded([&] { return places_of(files.scenes()); });
   if (!places) return tl::unexpected(places.error());
   settings.theatre = station::theatre_json(configuration, *places, *route)
                          .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
@@ -198,9 +194,10 @@ error::Expected<void> run(const runtime::ProgramOptions& options, const StationO
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return tl::unexpected(configuration.error());
   if (!station_options.terrain.empty()) configuration->terrain.directory = station_options.terrain;
-  auto terrain = model::terrain::open_terrain(configuration->terrain);
+  radar::TheatreFiles files(configuration->terrain, configuration->world.scenes);
+  auto terrain = radar::guarded([&] { return files.open_terrain(); });
   if (!terrain) return tl::unexpected(terrain.error());
-  const auto settings = settings_of(options, station_options, *configuration);
+  const auto settings = settings_of(options, station_options, *configuration, files);
   if (!settings) return tl::unexpected(settings.error());
   auto server = station::Server::listen(*settings, std::move(*terrain));
   if (!server) return tl::unexpected(server.error());

@@ -15,7 +15,7 @@
 #include "lib/log/log.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/text/plain_text.hpp"
-#include "model/terrain/store/directory_store.hpp"
+#include "radar/failure.hpp"
 #include "radar/recording/branch.hpp"
 #include "radar/recording/recording_reader.hpp"
 #include "radar/recording/replay.hpp"
@@ -58,13 +58,13 @@ World open_world(const CommonOptions& common, const recording::RecordingHeader& 
   recorded.terrain = options.terrain.empty() ? header.terrain : options.terrain;
   World world{read_configuration(options.has_own_file ? common.config : header.configuration, recorded), nullptr,
               nullptr};
-  auto store = model::terrain::open_terrain(world.configuration.terrain);
-  if (!store) throw_failure(store.error());
-  auto scenes = model::scene::open_scenes(world.configuration.world.scenes, world.configuration.terrain,
-                                          model::scene::SceneUse::scatterers);
-  if (!scenes) throw_failure(scenes.error());
-  world.store = std::move(*store);
-  world.scenes = std::move(*scenes);
+  auto stores = radar::guarded([&] {
+    radar::TheatreFiles files(world.configuration.terrain, world.configuration.world.scenes);
+    return files.open(model::scene::SceneUse::scatterers);
+  });
+  if (!stores) throw_failure(stores.error());
+  world.store = std::move(stores->window);
+  world.scenes = std::move(stores->scenes);
   return world;
 }
 

@@ -56,6 +56,12 @@ struct IndexedScene {
   std::string without{};             // names of parts to leave out, as in radar::Scene::without
 };
 
+// Files of scenes, and one sentence about each that cannot be used.
+struct SceneIndex {
+  std::vector<IndexedScene> scenes;
+  std::vector<std::string> problems;
+};
+
 // OpenFlight files of a folder (.flt in either case), sorted by name. Empty if the folder cannot be read.
 std::vector<std::filesystem::path> scene_files_in(const std::filesystem::path& folder);
 

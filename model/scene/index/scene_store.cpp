@@ -103,15 +103,16 @@ error::Expected<std::unique_ptr<SceneStore>> SceneStore::open(const std::vector<
   std::vector<std::string> problems;
   auto index = index_scenes(scenes, problems);
   if (!index) return tl::unexpected(index.error());
-  auto store = std::unique_ptr<SceneStore>(new SceneStore(std::move(*index), std::move(ground), options));
-  store->not_indexed_ = problems;
-  store->problems_ = std::move(problems);
-  return store;
+  return std::make_unique<SceneStore>(SceneIndex{std::move(*index), std::move(problems)}, std::move(ground), options);
 }
 
-SceneStore::SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain::TerrainStore> ground,
-                       SceneStoreOptions options)
-    : index_(std::move(index)), ground_(std::move(ground)), options_(options), scenes_(index_.size()) {
+SceneStore::SceneStore(SceneIndex index, std::unique_ptr<terrain::TerrainStore> ground, SceneStoreOptions options)
+    : index_(std::move(index.scenes)),
+      ground_(std::move(ground)),
+      options_(options),
+      scenes_(index_.size()),
+      not_indexed_(index.problems),
+      problems_(std::move(index.problems)) {
   std::vector<Disc> discs;
   for (const IndexedScene& scene : index_) discs.push_back({scene.placement.position, scene.reach_m});
   position_index_ = GridIndex(discs, kSceneCell_deg);
@@ -279,25 +280,35 @@ std::vector<std::string> SceneStore::take_problems() {
   return problems;
 }
 
-std::vector<radar::Scene> scenes_with_terrain(const std::vector<radar::Scene>& configured,
-                                              const radar::TerrainConfiguration& terrain) {
+error::Expected<SceneIndex> index_with_terrain(const std::vector<radar::Scene>& configured,
+                                               const radar::TerrainConfiguration& terrain) {
   std::vector<radar::Scene> scenes = configured;
   const auto of_terrain = std::filesystem::path(terrain.directory) / kTerrainScenes;
   if (!terrain.directory.empty() && !scene_files_in(of_terrain).empty())
     scenes.push_back({.file = of_terrain.string()});
-  return scenes;
+  SceneIndex index;
+  auto indexed = index_scenes(scenes, index.problems);
+  if (!indexed) return tl::unexpected(indexed.error());
+  index.scenes = std::move(*indexed);
+  return index;
 }
 
-error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& configured,
-                                                         const radar::TerrainConfiguration& terrain, SceneUse use) {
-  const std::vector<radar::Scene> scenes = scenes_with_terrain(configured, terrain);
-  if (scenes.empty()) return std::unique_ptr<SceneStore>();
+error::Expected<std::unique_ptr<SceneStore>> open_scenes(SceneIndex index, const radar::TerrainConfiguration& terrain,
+                                                         SceneUse use) {
+  if (index.scenes.empty() && index.problems.empty()) return std::unique_ptr<SceneStore>();
   constexpr bool kMaterials = false;  // a scene stands on heights
   auto ground = terrain::open_terrain(terrain, kMaterials);
   if (!ground) return tl::unexpected(ground.error());
   SceneStoreOptions options;
   options.use = use;
-  return SceneStore::open(scenes, std::move(*ground), options);
+  return std::make_unique<SceneStore>(std::move(index), std::move(*ground), options);
+}
+
+error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& configured,
+                                                         const radar::TerrainConfiguration& terrain, SceneUse use) {
+  auto index = index_with_terrain(configured, terrain);
+  if (!index) return tl::unexpected(index.error());
+  return open_scenes(std::move(*index), terrain, use);
 }
 
 }  // namespace yars::model::scene

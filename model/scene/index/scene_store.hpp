@@ -76,6 +76,8 @@ class SceneStore {
   static error::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
                                                            std::unique_ptr<terrain::TerrainStore> ground,
                                                            SceneStoreOptions options = {});
+  // The same for scenes that are indexed already.
+  SceneStore(SceneIndex index, std::unique_ptr<terrain::TerrainStore> ground, SceneStoreOptions options = {});
 
   // Returns a view with every readable scene that overlaps the region. `region.detail` is ignored.
   // Returns the previous view if no scene was loaded or dropped.
@@ -112,7 +114,6 @@ class SceneStore {
     std::uint32_t objects = 0;          // number of reserved indices: the maximum number of objects at any load
   };
 
-  SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain::TerrainStore> ground, SceneStoreOptions options);
   struct Loading {
     std::size_t number;
     Model model;
@@ -143,12 +144,14 @@ class SceneStore {
 // Folder of scenes inside a folder of terrain. Its .flt files belong to the terrain.
 inline constexpr const char* kTerrainScenes = "scenes";
 
-// The configured scenes, and those in the terrain's own folder of scenes.
-std::vector<radar::Scene> scenes_with_terrain(const std::vector<radar::Scene>& configured,
-                                              const radar::TerrainConfiguration& terrain);
+// Index of the configured scenes, and of those in the terrain's own folder of scenes. Errors: as index_scenes().
+error::Expected<SceneIndex> index_with_terrain(const std::vector<radar::Scene>& configured,
+                                               const radar::TerrainConfiguration& terrain);
 
-// Opens the store of configured scenes and of the terrain's own scenes, over configured terrain. Null if there is no
-// scene.
+// Opens a store of these scenes over configured terrain. Null if there is no scene.
+error::Expected<std::unique_ptr<SceneStore>> open_scenes(SceneIndex index, const radar::TerrainConfiguration& terrain,
+                                                         SceneUse use);
+// Opens the store of configured scenes and of the terrain's own scenes.
 error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& configured,
                                                          const radar::TerrainConfiguration& terrain,
                                                          SceneUse use = SceneUse::triangles);
