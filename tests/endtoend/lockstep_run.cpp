@@ -114,13 +114,13 @@ std::map<std::string, std::string> LockstepRun::frame_bytes() const {
   return bytes;
 }
 
-std::vector<json> LockstepRun::printed() const {
+const std::vector<json>& LockstepRun::printed() const {
+  if (!printed_.empty()) return printed_;
   const auto printed = set_.yars({"replay", "--print", recording_.string()});
   EXPECT_EQ(printed.code, 0) << printed.errors;
-  std::vector<json> objects;
   std::istringstream lines(printed.output);
-  for (std::string line; std::getline(lines, line);) objects.push_back(json::parse(line));
-  return objects;
+  for (std::string line; std::getline(lines, line);) printed_.push_back(json::parse(line));
+  return printed_;
 }
 
 std::map<std::int64_t, json> LockstepRun::states() const {

@@ -55,8 +55,8 @@ class LockstepRun {
   // All states that were recorded, by the tick from which each applies.
   std::map<std::int64_t, nlohmann::json> states() const;
   nlohmann::json replayed() const;  // output of `yars replay --events`
-  // Output of `yars replay --print`, one object per line.
-  std::vector<nlohmann::json> printed() const;
+  // Output of `yars replay --print`, one object per line; read once.
+  const std::vector<nlohmann::json>& printed() const;
 
  private:
   void start(const std::string& input, int seconds, const std::string& source, const Place& place);
@@ -64,6 +64,7 @@ class LockstepRun {
 
   ProcessSet set_;
   std::filesystem::path recording_;
+  mutable std::vector<nlohmann::json> printed_;
 };
 
 // Expects that the recorded events have the effects of the steps.
