@@ -168,12 +168,14 @@ class SceneTerrain {
   std::map<int, model::terrain::TerrainViewPointer> by_detail_;
 };
 
-// Median cost of a scan from terrain to video, with warm caches, on one thread, with noise if the fidelity has it.
+// Median cost of a scan from terrain to video, with warm caches, on one thread, with noise if the fidelity has it. The
+// reference algorithm is slow, so it runs once.
 trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRequest& request,
                     const TerrainView& terrain, int repeat, const parallel::GoesOn& goes_on) {
   model::kernel::OfflineScan scan(configuration, request, 1);
   std::vector<double> took_ms;
-  for (int run = 0; run <= repeat; ++run) {
+  const bool once = configuration.fidelity.algorithm == radar::Algorithm::reference;
+  for (int run = once ? repeat : 0; run <= repeat; ++run) {
     const double begin_ms = thread_ms();
     scan.run(terrain, goes_on);
     if (run > 0) took_ms.push_back(thread_ms() - begin_ms);  // run 0 warms the caches
@@ -196,6 +198,12 @@ radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity&
   return ruler;
 }
 
+// The candidate is its own ruler. Candidates of --knob have other names than presets.
+bool is_ruler(const ScanTradeOptions& options, const radar::Fidelity& candidate) {
+  if (options.ruler == "same") return candidate.algorithm == radar::Algorithm::reference;
+  return candidate.name == "reference" && candidate.samples == options.ruler_samples;
+}
+
 // Measures the candidates for one scene. With --ruler reference, all candidates are compared with the same scan.
 class SceneTrade {
  public:
@@ -215,9 +223,11 @@ class SceneTrade {
     const radar::RadarConfiguration candidate = with(fidelity);
     const TerrainView& terrain = terrain_.at(model::kernel::scan_detail(fidelity, request_.range));
     const trade::Cost cost = cost_of(candidate, request_, terrain, options_.repeat, goes_on_);
+    const trade::Ruler& ruler = options_.ruler == "reference" ? shared_ : (own_ = measured_ruler(fidelity));
+    if (is_ruler(options_, fidelity))  // it is not computed again
+      return trade::values_of(cost, trade::errors_against(ruler, ruler.observation));
     const trade::ScanObservation found = trade::observe(candidate, request_, terrain, goes_on_);
-    if (options_.ruler == "reference") return trade::values_of(cost, trade::errors_against(shared_, found));
-    return trade::values_of(cost, trade::errors_against(measured_ruler(fidelity), found));
+    return trade::values_of(cost, trade::errors_against(ruler, found));
   }
 
  private:
@@ -237,7 +247,7 @@ class SceneTrade {
   const parallel::GoesOn& goes_on_;
   ScanRequest request_;
   SceneTerrain terrain_;
-  trade::Ruler shared_;
+  trade::Ruler shared_, own_;  // of all candidates, and of the last one
 };
 
 std::vector<trade::Scene> scenes_of(const ScanTradeOptions& options, const std::string& directory) {
