@@ -1,8 +1,13 @@
 # Packs the packages of CPack again by dpkg-deb: without the scripts that call ldconfig, which the trigger does, and
 # with the dates, the order and the compression of Debian's own packages, so that equal files give equal packages.
+# -D CPACK_DEBIAN_COMPRESSION_TYPE=none leaves out the compression, which takes longer than the rest.
 find_program(DPKG_DEB dpkg-deb)
 if(NOT DPKG_DEB)
   message(FATAL_ERROR "expected dpkg-deb, found none; install the Debian package dpkg")
+endif()
+set(compression xz)
+if(CPACK_DEBIAN_COMPRESSION_TYPE STREQUAL "none")
+  set(compression none)
 endif()
 foreach(package IN LISTS CPACK_PACKAGE_FILES)
   set(folder ${package}.unpacked)
@@ -17,7 +22,7 @@ foreach(package IN LISTS CPACK_PACKAGE_FILES)
       endif()
     endif()
   endforeach()
-  execute_process(COMMAND ${DPKG_DEB} --root-owner-group -Zxz --threads-max=1 --build ${folder} ${package}
+  execute_process(COMMAND ${DPKG_DEB} --root-owner-group -Z${compression} --threads-max=1 --build ${folder} ${package}
     OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
   file(REMOVE_RECURSE ${folder})
 endforeach()
