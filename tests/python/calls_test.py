@@ -145,11 +145,11 @@ class Signals(Folder):
     CALLS = {
         "scan": "yars.Radar('reference', samples=2048).scan(terrain, altitude_ft=30000, range_nm=100)",
         "shadow": "scan.shadow",
-        "patch": "yars.Radar('reference', map_size=1024).patch(terrain, looks=16, force=True)",
+        "patch": "yars.Radar('reference', map_size=512).patch(terrain, looks=16, force=True)",
         "patches": "yars.Radar('draft', map_size=64).patches(terrain, numpy.repeat(order, 10 ** 6), arrays=())",
         "trade": "yars.trade(terrain, repeat=500)",
         "trade maps": "yars.trade(terrain, maps=True, repeat=500)",
-        "elevation": "terrain.elevation(numpy.full(10 ** 8, 37.5), -122.5)",
+        "elevation": "terrain.elevation(numpy.full(2 * 10 ** 7, 37.5), -122.5)",
         "generate": "yars.Terrain.generate(folder + '/land', level=2, cells_lat=2, cells_lon=2)",
     }
 
@@ -162,7 +162,7 @@ folder, terrain = {str(self.folder)!r}, yars.Terrain()
 order = numpy.zeros(1, yars.PATCH_ORDER)
 for field, value in {order_of(PATCH)!r}.items(): order[field] = value
 if {name!r} == 'shadow':
-    scan = yars.Radar('reference', samples=2048).scan(terrain, altitude_ft=30000, range_nm=100)
+    scan = yars.Radar('reference', samples=2048).scan(terrain, altitude_ft=30000, range_nm=100, width_deg=40)
 try:
     threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
     {call}

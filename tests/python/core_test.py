@@ -126,7 +126,8 @@ class Commands(Folder):
             samples = {"samples": 60} if preset == "reference" else {}
             with self.subTest(preset):
                 out, video, lit = self.folder / "p.f32", self.folder / "v.csv", self.folder / "s.csv"
-                given = {**SCAN, **samples, "threads": threads}
+                narrow = {} if preset == "standard" else {"width_deg": 70}
+                given = {**SCAN, **samples, **narrow, "threads": threads}
                 words = ["scan", "--fidelity", preset, *options(given)]
                 printed = command(*words, "--out", str(out), "--shadow", str(lit))
                 command(*words, "--out", str(video))
@@ -240,7 +241,7 @@ class Commands(Folder):
 
 class Trades(Folder):
     def test_layout_is_that_of_the_command(self):
-        for maps, words, given in ((False, [], {"scene": ["37,-122,15000,60,10"]}),
+        for maps, words, given in ((False, [], {"scene": ["37,-122,15000,60,10"], "ruler_samples": 90}),
                                    (True, ["maps"], {"view": ["37,-122,15000,37.2,-122,0.67"], "ruler_size": 32})):
             rows = yars.trade(maps=maps, presets="1996,draft", knob=["samples=60,90" if not maps else "mapSize=32"],
                               repeat=1, out=str(self.folder / "here.json"), **given)
