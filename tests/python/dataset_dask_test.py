@@ -98,17 +98,21 @@ class Dask(Case):
         self.addCleanup(cluster.close)
         return cluster
 
-    def test_workers_are_killed_again_and_again(self):
-        cluster = self.cluster(FAKE_MAKER_S="0.1")
+    def test_deaths_and_an_interrupt(self):
+        """On one cluster, which takes as long to start as a data set."""
+        cluster = self.cluster(FAKE_MAKER_S="0.2")
         cluster.kill_when(lambda kills: kills < 2 and self.blocks_there() >= 15 * (kills + 1))
         done = self.run_it("--dask", cluster.address)
         self.assertIn("800 items made", done.stdout)
         self.assertEqual(cluster.kills, 2)
         self.assertEqual(tree(self.out), self.reference())
         self.assertTrue(wait_for(lambda: not hosts_of(self.out)), "a host process is left")
+        for check in (self.check_interrupt, self.check_death_of_the_scheduler):
+            shutil.rmtree(self.out)
+            with self.subTest(check.__name__):
+                check(cluster)
 
-    def test_interrupt_and_death_of_the_scheduler(self):
-        cluster = self.cluster(workers=2, FAKE_MAKER_S="0.2")
+    def check_interrupt(self, cluster):
         process = self.start("--dask", cluster.address)
         self.assertTrue(wait_for(lambda: self.blocks_there() > 3))
         process.send_signal(signal.SIGTERM)
@@ -120,9 +124,6 @@ class Dask(Case):
         self.assertEqual(self.blocks_there(), there)
         self.run_it()
         self.assertEqual(tree(self.out), self.reference())
-
-        shutil.rmtree(self.out)
-        self.check_death_of_the_scheduler(cluster)
 
     def check_death_of_the_scheduler(self, cluster):
         """One error, and no host that is left."""
