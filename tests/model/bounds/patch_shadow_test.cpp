@@ -18,14 +18,13 @@
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/polar_ground.hpp"
 #include "model/hrm/reference.hpp"
-#include "model/terrain/formats/dted.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "tests/model/bounds/made_up_coast.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
 #include "tests/model/terrain/sampling/rough_cell.hpp"
 #include "tests/model/terrain/shared_data.hpp"
-#include "worldgen/terrain/landscape.hpp"
 
 namespace yars::test {
 namespace {
@@ -257,10 +256,7 @@ TEST(PatchShadow, OfAWallBetweenRowsIsOnTheMap) {
 }
 
 TEST(PatchShadowBound, HoldsOverTheMadeUpCoast) {
-  TemporaryFolder folder;
-  const worldgen::Landscape landscape(worldgen::DefaultLandscape::kSeed);
-  ASSERT_TRUE(terrain::write_dted(folder.path(), landscape.cell({37, -123}, 1201, 1201), 1));
-  const Country coast{"made-up coast", folder.path(), {37.5, -122.45}, 200.0, 5000.0};
+  const Country coast{"made-up coast", made_up_coast(), {37.5, -122.45}, 200.0, 5000.0};
   EXPECT_GT(expect_within_bounds(coast, kSomeWindows_nm), 0.02);
 }
 

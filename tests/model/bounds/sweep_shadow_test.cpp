@@ -22,10 +22,10 @@
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "tests/model/bounds/made_up_coast.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
 #include "tests/model/terrain/sampling/rough_cell.hpp"
 #include "tests/model/terrain/shared_data.hpp"
-#include "worldgen/terrain/landscape.hpp"
 
 namespace yars::model::rbm {
 namespace {
@@ -166,12 +166,9 @@ TEST(ShadowBound, HoldsOverMountains) {
 }
 
 TEST(ShadowBound, HoldsOverTheMadeUpCoast) {
-  test::TemporaryFolder folder;
-  const worldgen::Landscape landscape(worldgen::DefaultLandscape::kSeed);
-  ASSERT_TRUE(terrain::write_dted(folder.path(), landscape.cell({37, -123}, kPosts, kPosts), 1));
   constexpr double kSome_nm[] = {4.7, 40.0, 160.0};
   const Scan scan{{37.1, -122.95}, 4000.0, 10.0, 80.0, 10.0};
-  EXPECT_GT(expect_within_bounds("made-up coast", scan, folder.path(), kSome_nm), 0.02);
+  EXPECT_GT(expect_within_bounds("made-up coast", scan, test::made_up_coast(), kSome_nm), 0.02);
 }
 
 // Mountains like mountains(), with posts of 1 arcsecond and gullies and crags of that size.
