@@ -11,6 +11,7 @@
 #include <string>
 
 #include "lib/radar/world.hpp"
+#include "station/world_message.hpp"
 #include "world/world_edit.hpp"
 #include "world/world_values.hpp"
 
@@ -79,8 +80,8 @@ TEST(InstructorMessage, WhatIsNoCommandIsRefusedWithWhatIsExpected) {
   EXPECT_THAT(refusal(R"({"do": "reposition", "id": 1, "lat": 91, "lon": 0, "alt_ft": 0, "heading": 0})"),
               HasSubstr("lat: expected a number from -90 to 90"));
   EXPECT_THAT(refusal(R"({"do": "play", "id": 1, "file": "", "at": 0})"), HasSubstr("file: expected a text"));
-  EXPECT_THAT(refusal(R"({"do": "add", "id": 1, "list": "trees", "lat": 1, "lon": 1})"),
-              HasSubstr("rain, jammers, movers or points"));
+  EXPECT_THAT(world_lists(), HasSubstr("rain, jammers"));
+  EXPECT_THAT(refusal(R"({"do": "add", "id": 1, "list": "trees", "lat": 1, "lon": 1})"), HasSubstr(world_lists()));
   EXPECT_THAT(refusal(R"({"do": "add", "id": 1, "list": "rain", "lat": 1})"), HasSubstr("two numbers"));
   EXPECT_THAT(refusal(R"({"do": "sea", "id": 1})"), HasSubstr("null: from the wind"));
 }
@@ -135,7 +136,7 @@ TEST(InstructorMessage, AnEntryThatIsRestoredIsNamedByListAndId) {
   EXPECT_EQ(restored.list, world::WorldList::movers);
   EXPECT_EQ(restored.item, 7U);
   EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "trees", "item": 7})"),
-              HasSubstr("restore: list: expected rain, jammers, movers or points, found \"trees\""));
+              HasSubstr("restore: list: expected " + world_lists() + ", found \"trees\""));
   EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "rain"})"), HasSubstr("item: expected a whole number"));
   EXPECT_TRUE(read(R"({"do": "undo reset", "id": 1})"));
 }
