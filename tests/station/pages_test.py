@@ -89,8 +89,10 @@ def main():
                             "--level=0"], check=True, stdout=subprocess.DEVNULL)
             process = subprocess.Popen([TOP / "scripts/start", "--bin", binaries, "--session", session,
                                         "--terrain", terrain, "--headless", "600",
-                                        "--no-frames", "--no-input", "--log-dir", "", "--web", "--web-port", str(port),
-                                        "--web-without-tokens"], stdout=out, stderr=subprocess.STDOUT, cwd=name)
+                                        # The browser draws 40 pictures a second, which takes as long as their pixels.
+                                        "--no-frames", "--size", "240", "--no-input", "--log-dir", "", "--web",
+                                        "--web-port", str(port), "--web-without-tokens"],
+                                       stdout=out, stderr=subprocess.STDOUT, cwd=name)
         try:
             done = subprocess.run(["node", script, address(log, process), binaries / "yars", session], cwd=folder,
                                   check=False, timeout=480)
