@@ -115,7 +115,7 @@ TEST_F(ChangedWorld, SequencePointsChangeOutlastTheStateMachineAndAreRecorded) {
   EXPECT_EQ(world()["points"].size(), 0U);
   const auto steer = set.yars({"world", "point", "add", "37.5", "-122.9"});
   ASSERT_EQ(steer.code, 0) << steer.errors;
-  EXPECT_NE(steer.output.find("sequence point 1"), std::string::npos) << steer.output;
+  EXPECT_NE(steer.output.find("point 1 \"1\" added"), std::string::npos) << steer.output;
   ASSERT_EQ(set.yars({"world", "point", "add", "37.5", "-122.8", "--name", "7.", "--elevation-ft", "300"}).code, 0);
   ASSERT_TRUE(is_at("7.", 37.5));
   EXPECT_NEAR(drawn(layout, "7.")->elevation_m, 91.44, 1e-9);

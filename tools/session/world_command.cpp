@@ -79,11 +79,18 @@ std::string others_of(const databuffer::WorldPoint& point) {
   return ", " + std::string(world::kind_name(point));
 }
 
+// The number of an entry, and its name: "3", "3 \"ferry\"".
 template <class Entry>
-void print_entry(const Entry& entry) {
-  std::string text = std::string(Entry::Values::list.command) + ' ' + std::to_string(entry.id);
+std::string number_and_name(const Entry& entry, std::uint32_t id) {
+  std::string text = std::to_string(id);
   if constexpr (requires { entry.name; })
     if (entry.name[0] != '\0') text += " \"" + std::string(text::text_of(entry.name)) + '"';
+  return text;
+}
+
+template <class Entry>
+void print_entry(const Entry& entry) {
+  std::string text = std::string(Entry::Values::list.command) + ' ' + number_and_name(entry, entry.id);
   text += ": " + position_text(entry.latitude_deg, entry.longitude_deg);
   values::visit_fields(entry, [&text](const values::Field& field, double value) {
     if (is_of_position(field)) return;
@@ -318,7 +325,7 @@ runtime::Command add_list(runtime::Command parent, const Shared& options) {
                                          return tl::unexpected(written.error());
                                        const auto id = world::add(world, *entry);
                                        if (!id) return tl::unexpected(id.error());
-                                       return added->word() + std::to_string(*id) + " added";
+                                       return added->word() + number_and_name(std::get<Entry>(*entry), *id) + " added";
                                      });
   add_position(adding, added->place);
   added->options.add(adding, "");

@@ -399,6 +399,7 @@ class TheFilesOfTheTree(unittest.TestCase):
             (self.root / name).write_text(", ".join(self.names))
         (self.root / presets.PAGE).write_text(page_of(self.names))
         (self.root / segment.PAGE).write_text(segment.TABLE + segment.END)
+        (self.root / generate.COMMANDS).write_text(f"<!-- {generate.BEGIN[2:-1]} -->\n<!-- {generate.END[2:-1]} -->\n")
         (self.root / generate.KEYS).write_text(f"{generate.BEGIN}{generate.END}# {', '.join(self.names)}\n")
         (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
         (self.root / generate.STUB).write_text(f"# {', '.join(self.names)}\n" + "".join(
@@ -424,9 +425,9 @@ class TheFilesOfTheTree(unittest.TestCase):
 
     def test_are_written_and_then_found_fresh(self):
         self.refuses(generate.StaleError,
-                     "python/yars/results.pyi, python/yars/dataset/keys.py, station/web/src/values.ts, "
-                     "docs/shared_memory.md: expected what the IDL says, found otherwise; run "
-                     "lib/values/generate.py --write")
+                     "python/yars/results.pyi, python/yars/dataset/keys.py, docs/commands.md, "
+                     "station/web/src/values.ts, docs/shared_memory.md: expected what the IDL says, found otherwise; "
+                     "run lib/values/generate.py --write")
         self.run_with("--write")
         self.run_with("--check")
         text = (self.root / generate.PYTHON).read_text()
