@@ -214,19 +214,21 @@ void add_position(runtime::Command command, Place& place) {
 // Options of the values that an entry has beside those of lib/values/fields.hpp.
 template <class Entry>
 struct OtherOptions {
-  void add(runtime::Command /*command*/) {}
+  void add(runtime::Command /*command*/, const std::string& /*otherwise*/) {}
   void write(Entry& /*entry*/) const {}
 };
 template <>
 struct OtherOptions<databuffer::WorldJammer> {
   std::string band;
   std::vector<double> channels;
-  void add(runtime::Command command) {
-    command.option("--band", band, "jammed band").one_of({"A", "B", "C", "D", "E", "all"}).otherwise("all");
+  void add(runtime::Command command, const std::string& otherwise) {
+    command.option("--band", band, "jammed band")
+        .one_of({"A", "B", "C", "D", "E", "all"})
+        .otherwise(otherwise.empty() ? "all" : otherwise);
     command.option("--channel", channels, "jammed channel; repeatable")
         .one_of({"1", "2", "3", "4", "5", "6", "7", "8"})
         .repeatable()
-        .otherwise("all channels");
+        .otherwise(otherwise.empty() ? "all channels" : otherwise);
   }
   void write(databuffer::WorldJammer& jammer) const {
     if (!band.empty()) jammer.band = band == "all" ? radar::kEveryBand : band.front() - 'A';
@@ -260,7 +262,7 @@ class EntryOptions {
       else if (!std::isnan(field.initial))
         option.otherwise(number(field.initial));
     }
-    others_.add(command);
+    others_.add(command, otherwise);
   }
 
   Expected<void> write(world::WorldEntry& entry) const {
