@@ -2,9 +2,9 @@
 // Inputs: the four times of each answered question.
 // Outputs: offset = CLOCK_MONOTONIC of the other host minus that of this host, and its maximum error.
 // Units: [ns].
-// Errors: at most half of the round trip, and 0.4 ms by clocks whose rates differ by 100 ppm in kWindow answers at 4
-// Hz. Source: D. Mills, RFC 5905, section 8 (on-wire protocol) and section 10 (clock filter: the least round trip
-// counts).
+// Errors: at most half of the round trip, and 0.4 ms by clocks whose rates differ by 100 ppm in kWindow answers, 4 a
+//   second.
+// Source: D. Mills, RFC 5905, section 8 (on-wire protocol), section 10 (clock filter: the least round trip counts).
 #pragma once
 
 #include <algorithm>

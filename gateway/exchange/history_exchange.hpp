@@ -4,8 +4,7 @@
 // Outputs: a sample for each record; the records in the local rings: traffic and world before the tick that names them,
 //   a tick before its sweep.
 // Errors: an invalid record, a wrong hash or sim time, and a tick that goes back are refused, counted and noted.
-// Records
-//   of an earlier epoch are left out.
+//   Records of an earlier epoch are left out.
 #pragma once
 
 #include "databuffer/messages/record_hashes.hpp"
@@ -82,9 +81,8 @@ class HistoryExchange {
     }
   }
 
-  bool is_empty() const {
-    return ticks_.waiting.empty() && sweeps_.waiting.empty();
-  }  // nothing waits for its predecessor
+  // True: nothing waits for its predecessor.
+  bool is_empty() const { return ticks_.waiting.empty() && sweeps_.waiting.empty(); }
 
   void receive(Context& context, const yars_net_LatchedTrafficSample& sample) {
     // Traffic is valid until the next record, so that also an old one is taken.
