@@ -68,7 +68,7 @@ std::vector<Interface> interfaces_here() {
     const Address last_host = ~address_in(entry->ifa_netmask);
     if (last_host >= 3) found.broadcast = *found.address | last_host;
   }
-  std::ranges::stable_partition(here, [](const Interface& one) { return one.address.has_value(); });
+  std::stable_partition(here.begin(), here.end(), [](const Interface& one) { return one.address.has_value(); });
   return here;
 }
 

@@ -216,7 +216,7 @@ class ClockExchange {
     if (followed_ && !unanswered && equal(theirs, followed_->theirs)) return slew(context);
     const bool first = !followed_.has_value();
     if (first)
-      followed_.emplace();
+      followed_ = FollowedClock{};
     else if (is_later(theirs.epoch, followed_->theirs.epoch))
       epoch_begun_ns_ = context.now_ns;
     followed_->theirs = theirs;
