@@ -4,7 +4,6 @@
 // A list needs no code here. forms_world.cpp and forms_objects.cpp have the forms that have further slots.
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <tuple>
 #include <utility>

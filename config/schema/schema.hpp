@@ -109,7 +109,7 @@ struct ConfigurationBuilder {
   radar::Rgb& color;  // the colour read last; FormSlot::store copies it to the field of the slot that contains it
   HueSaturationValue hue{};
   radar::Material& material;
-  radar::ListEntries& entries;  // the entry of each list of the world that was read last
+  radar::ListEntries& entries;  // of each list of the world, the entry that was read last
   radar::Scene& scene;
   radar::Beacon& beacon;
   radar::Device& device;

@@ -1,4 +1,6 @@
 // One field of a record as `yars status` shows it in text and JSON.
+// Inputs: fields with @status in lib/values/*.idl; the generated shown_fields.hpp makes a ShownField of each.
+// Outputs: name, unit and value. Units: as `unit` says.
 #pragma once
 
 #include <cstddef>

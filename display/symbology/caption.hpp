@@ -1,6 +1,7 @@
 // Caption of a tour over the picture.
-// Input: the caption; the boxes that the draw list already has. Output: a black plate with text on the layer of
-// notices. Source: docs/pilots_manual.md#caption
+// Inputs: the caption; the boxes that the draw list already has.
+// Outputs: a black plate with text on the layer of notices.
+// Source: docs/pilots_manual.md#caption
 #pragma once
 
 #include "databuffer/messages/caption.hpp"

@@ -38,7 +38,7 @@ error::Expected<void> write_png(file::NewFile file, const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = format_of(image.channels);
-  png.flags = PNG_IMAGE_FLAG_FAST;  // a radar picture takes a quarter of the time, and no more bytes
+  png.flags = PNG_IMAGE_FLAG_FAST;  // no filters: a quarter of the time, and 28 % more bytes for a map of terrain
   std::vector<std::byte> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
   png_alloc_size_t size = bytes.size();
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr) == 0)
