@@ -15,6 +15,7 @@
 #include "lib/file/output_file.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/values/fields.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
@@ -65,7 +66,9 @@ void add_trade_options(runtime::Command command, TradeOptions& options) {
       .option("--ruler", options.ruler,
               "reference: this preset; same: the reference algorithm with the other settings of each candidate")
       .one_of({"reference", "same"});
-  command.option("--repeat", options.repeat, "number of timed runs with warm caches; the result is their median")
+  command
+      .option("--repeat", options.repeat,
+              "number of timed runs with warm caches; the result is their median. The reference algorithm runs once")
       .range(1, 1000);
   command.option("--csv", options.csv, "CSV file with one row per candidate and scene")
       .value_name("FILE")
