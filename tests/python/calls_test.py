@@ -84,7 +84,7 @@ def call():
 thread = threading.Thread(target=call)
 thread.start()
 codes = []
-for turn in range(12):
+for turn in range(8):
     time.sleep(0.013 * (turn % 5))
     child = os.fork()
     if child == 0:
@@ -97,12 +97,12 @@ stop.append(1)
 thread.join()
 print(codes)
 """, timeout=280)
-        self.assertEqual(said, (f"{[0] * 12}\n", "", 0))
+        self.assertEqual(said, (f"{[0] * 8}\n", "", 0))
 
 
 class End(Folder):
     def test_python_ends_while_daemon_threads_compute(self):
-        for preset in ("draft", "reference") * 4:
+        for preset in ("draft", "reference") * (4 if "YARS_TEST_FULL" in os.environ else 2):
             said = program("import threading, time, yars\n"
                            f"radar, terrain = yars.Radar({preset!r}, samples=200), yars.Terrain()\n"
                            "begun = threading.Semaphore(0)\n"
@@ -273,8 +273,8 @@ class Memory(unittest.TestCase):
 
         calls(100)
         before = resident_kb()
-        calls(500)
-        self.assertLess(resident_kb() - before, 600)
+        calls(300)
+        self.assertLess(resident_kb() - before, 360)
 
 
 if __name__ == "__main__":

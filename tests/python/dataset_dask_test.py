@@ -139,6 +139,7 @@ class Dask(Case):
         self.assertIn(f"{16 * there:,} were there", self.run_it().stdout)
         self.assertEqual(tree(self.out), self.reference())
 
+    @unittest.skipUnless("YARS_TEST_FULL" in os.environ, "scripts/test --full runs it: a cluster of its own")
     def test_full_disk_is_one_error(self):
         cluster = self.cluster(workers=2, FAKE_MAKER_FULL="20")
         done = self.run_it("--dask", cluster.address, code=1)

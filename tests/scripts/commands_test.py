@@ -5,7 +5,7 @@ help of each command.
 usage: commands_test.py BIN
 Walks the programs, their commands and options by --help (packaging/help/help_text.py). Each wrong command line ends
 with exit code 2 and one line in the form "PROGRAM COMMAND: OPTION: expected ..., found ...; see PROGRAM COMMAND
---help". YARS_TEST_FULL: each option is misspelled, without a value, and before --help; without, every fourth.
+--help". YARS_TEST_FULL: each option is misspelled, without a value, and before --help; without, every eighth.
 """
 import concurrent.futures
 import os
@@ -83,7 +83,7 @@ def cases_of_values(command, entry, number):
         before = command.arguments.index(entry)
         return [*command.words, *["1"] * before, value]
     start = command.words[0] == "yars-start"
-    some = ALL or number % 4 == 0
+    some = ALL or number % 8 == 0
     if is_option and some:
         yield [*command.words, name], [f"{name}: expected ", "found nothing" if entry.count == 1 else "found 0"]
     if entry.is_number:
@@ -110,7 +110,7 @@ def cases_of(program, command):
             yield from cases_of_values(command, entry, number)
         elif "--help" not in entry.names and "--version" not in entry.names and command.words[0] != "yars-start":
             yield [*command.words, f"{name}=maybe"], [f"{name}: expected no value", "'maybe'"]
-        if name.startswith("--") and (ALL or number % 4 == 0):
+        if name.startswith("--") and (ALL or number % 8 == 0):
             yield [*command.words, misspelled(name)], ["expected an option", misspelled(name), "did you mean '--"]
     for entry in command.arguments:
         if command.words[-1] != "help":

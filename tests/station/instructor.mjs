@@ -1,7 +1,7 @@
 // The instructor's page as an instructor uses it.
 import assert from "node:assert/strict";
 import { address, browser, call, faults, fitsAllScreens, hasNameIconAndLinks, hasNoFinding,
-  inSight, open, run, tooSmall, until, watch } from "./browser.mjs";
+  inSight, open, run, screens, tooSmall, until, watch } from "./browser.mjs";
 
 const path = "/instructor.html";
 const world = () => JSON.parse(call("world", "--json"));
@@ -443,7 +443,7 @@ const tests = {
     call("world", "reset");
   },
   async "the hint after Add rain is in sight, with buttons for what a finger cannot do otherwise"() {
-    for (const [width, height] of [[1440, 900], [820, 1180], [390, 844], [844, 390]]) {
+    for (const [width, height] of screens) {
       const page = await open(width, height, path);
       const cells = world().rain.length;
       await page.click("#add_rain");
