@@ -76,7 +76,10 @@ class Gateway {
   }
 
   // As Participants::take_lost_handshake(). The caller then opens a new link and a new shell.
-  std::string take_lost_handshake() { return link_.participants().take_lost_handshake(context_.now_ns); }
+  std::string take_lost_handshake() {
+    return link_.participants().take_lost_handshake(context_.now_ns,
+                                                    [&](std::string_view name) { return hosts_.hears(name); });
+  }
 
   // Runs further passes until the other hosts have what this one has sent, for 1 s at most. Without them the last tick
   // of a lockstep run would not reach a slower host.

@@ -95,12 +95,16 @@ class Participants {
   }
 
   // With security: the name of a gateway with which this one should try the handshake again, by a new participant of
-  // its own; empty: none. Cyclone DDS 0.10 can lose one for good on a bad line (issue 1895). Of two gateways the one
-  // with the greater GUID tries. Each participant is named once.
-  std::string take_lost_handshake(std::int64_t now_ns) {
+  // its own; empty: none. Cyclone DDS 0.10 can lose one for good on a bad line (issue 1895), also the second handshake
+  // with a gateway that both have lost in between. Of two gateways the one with the greater GUID tries. Each
+  // participant is named once. `hears(host)`: whether a host of this session is heard now.
+  template <class Hears>
+  std::string take_lost_handshake(std::int64_t now_ns, const Hears& hears) {
     for (auto& [key, other] : others_) {
-      const bool is_lost = secured_ && is_apart(other) && other.session.empty() && key < self_;
-      if (!is_lost || other.is_lost || now_ns - other.first_ns < kHandshake_ns) continue;
+      if (!secured_ || key > self_ || other.name.empty() || !other.session.empty() || other.is_lost) continue;
+      if (other.is_here && hears(other.host)) other.heard_ns = now_ns;
+      const std::int64_t since_ns = other.is_here ? other.heard_ns : other.first_ns;
+      if (since_ns == 0 || now_ns - since_ns < kHandshake_ns) continue;
       other.is_lost = true;
       return other.name;
     }
@@ -120,7 +124,9 @@ class Participants {
   struct Other {
     std::string name, address;  // of a gateway; empty: it is none
     std::int64_t first_ns = 0;  // when it was first heard
+    std::int64_t heard_ns = 0;  // when its host was heard last; 0: never
     bool is_here = false;       // writes in this session
+    std::string host;           // of this session, whose writers it has
     std::string session;        // of its writers, another one; empty: none known
     bool is_named = false;
     bool is_lost = false;  // take_lost_handshake() has named it
@@ -181,6 +187,11 @@ class Participants {
           other->session = session;
         dds_free(partitions[i]);
       }
+      void* data = nullptr;
+      std::size_t bytes = 0;
+      if (other->is_here && dds_qget_groupdata(sample.qos, &data, &bytes))
+        other->host.assign(static_cast<const char*>(data), std::min(bytes, kMaxText));
+      dds_free(data);
       dds_free(partitions);
     });
   }

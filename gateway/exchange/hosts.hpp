@@ -129,6 +129,9 @@ class Hosts {
     const auto found = std::ranges::find(views_, id, &HostView::id);
     return found == views_.end() ? nullptr : &*found;
   }
+  bool hears(std::string_view name) const {
+    return std::ranges::any_of(hosts_, [&](const Host& host) { return host.alive && host.view.name == name; });
+  }
   // True for another host with the same layout, also one that is silent now.
   bool has_announced(std::uint64_t id) const {
     const Host* host = host_of(id);

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/start --network on four hosts over a bad line, as docs/network.md sets them up, plain and with identities.
+"""scripts/start --network on four hosts over a bad line, as docs/network.md sets them up, with identities. YARS_TEST_FULL:
+also without, and after a silence.
 
 usage: four_hosts_test.py BIN       BIN: folder of the programs; ends with 77 and a word where there is no lab or no gateway
 """
@@ -112,6 +113,22 @@ def joins_over_a_line_that_was_bad(hosts, programs, folder):
     one.end()
 
 
+def joins_again_after_a_silence(hosts, programs, folder):
+    """A gateway whose participant is there, and of which no sample comes, gets another handshake."""
+    one = Set(hosts, programs, folder, True)
+    for host, roles in ROLES.items():
+        one.start(host, roles)
+    one.await_on(ROLES, lambda seen: seen.get("power") == "OPR" and seen.get("sweeps", 0) > 100, "a radar that sweeps, on all hosts")
+    hosts.mute("c")
+    lab.wait_until(lambda: any("was lost, as on a bad line: joins again" in process.text() for process in one.begun.values()),
+                   "a gateway that joins again", WITHIN_S)
+    hosts.heal("c")
+    before = {host: one.watch(host).get("sweeps", 0) for host in ROLES}
+    for host in ROLES:
+        one.await_on([host], lambda seen, host=host: seen.get("sweeps", 0) > before[host] + 50, "sweeps after the silence")
+    one.end()
+
+
 def power_stays_as_the_pilot_set_it(hosts, programs, folder):
     """A state-machine that stands by sends no power-on: neither while it waits nor when it takes over."""
     one = Set(hosts, programs, folder, False)
@@ -144,14 +161,16 @@ def main():
     if why_not:
         print(f"skipped: {why_not}")
         return 77
-    for identities in (False, True):
+    full = "YARS_TEST_FULL" in os.environ
+    for identities in (False, True) if full else (True,):
         with tempfile.TemporaryDirectory() as folder, lab.Lab(ROLES, wire=str(programs / "wire")) as hosts:
             hosts.set_line(loss=1, delay=5, jitter=2, duplicate=1, reorder=2)
             fly(hosts, programs, pathlib.Path(folder), identities)
         print(f"four hosts{' with identities' if identities else ''}: ok", flush=True)
-    with tempfile.TemporaryDirectory() as folder, lab.Lab(ROLES, wire=str(programs / "wire")) as hosts:
-        joins_over_a_line_that_was_bad(hosts, programs, pathlib.Path(folder))
-    print("joins over a line that was bad: ok", flush=True)
+    for check in (joins_over_a_line_that_was_bad, joins_again_after_a_silence)[:2 if full else 1]:
+        with tempfile.TemporaryDirectory() as folder, lab.Lab(ROLES, wire=str(programs / "wire")) as hosts:
+            check(hosts, programs, pathlib.Path(folder))
+        print(f"{check.__name__}: ok", flush=True)
     with tempfile.TemporaryDirectory() as folder, lab.Lab(ROLES, wire=str(programs / "wire")) as hosts:
         power_stays_as_the_pilot_set_it(hosts, programs, pathlib.Path(folder))
     print("power stays as the pilot set it: ok")

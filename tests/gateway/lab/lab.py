@@ -283,6 +283,10 @@ class Lab:
     def cut(self, host):
         self._order(f"cut {self.hosts[host].port}")
 
+    def mute(self, host):
+        """Programs of the host find those of others, and exchange no samples."""
+        self._order(f"mute {self.hosts[host].port}")
+
     def heal(self, host):
         self._order(f"heal {self.hosts[host].port}")
 

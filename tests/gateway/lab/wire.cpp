@@ -5,7 +5,8 @@
 //
 // Input: one command a line. Each is answered by one line: "ok", "ok NUMBERS" or "error: ...".
 //   plug PORT NAMESPACE         makes the device eth0 in a network namespace (/proc/PID/ns/net) and joins it to the
-//   port unplug PORT                 removes that device cut PORT, heal PORT         a cut port takes and gives nothing
+//   port unplug PORT                 removes that device
+//   cut PORT, mute PORT, heal PORT   a cut port takes and gives nothing, a mute one no data of DDS: odd UDP ports
 //   loss PERCENT, duplicate PERCENT, reorder PERCENT      of the frames, each by itself
 //   delay MS JITTER_MS          evenly spread over delay - jitter to delay + jitter; frames may overtake each other
 //   bandwidth KBIT_PER_S        of what leaves a port, 0 for no limit; a queue of more than kMaxQueue_s is dropped
@@ -86,7 +87,7 @@ struct Statistics {
 
 struct Port {
   Descriptor device;
-  bool is_cut = false;
+  bool is_cut = false, is_mute = false;
   double free_at_s = 0.0;  // when the last frame of its queue has left, with a bandwidth
 };
 
@@ -168,7 +169,8 @@ class Wire {
     std::string word;
     words >> word;
     if (word == "statistics") return statistics();
-    if (word == "plug" || word == "unplug" || word == "cut" || word == "heal") return obey_for_port(word, words);
+    for (const char* of_a_port : {"plug", "unplug", "cut", "mute", "heal"})
+      if (word == of_a_port) return obey_for_port(word, words);
     double value = 0.0, jitter_ms = 0.0;
     if (!(words >> value) || value < 0.0)
       return "error: expected a command and a number of 0 or more, found " + command;
@@ -195,8 +197,9 @@ class Wire {
       return "error: expected a port from 1 to " + std::to_string(ports_.size());
     }
     Port& port = ports_[number - 1];
-    if (word == "cut" || word == "heal") {
+    if (word == "cut" || word == "mute" || word == "heal") {
       port.is_cut = word == "cut";
+      port.is_mute = word == "mute";
       return "ok";
     }
     port.device = Descriptor();  // the name eth0 is free before the next is made
@@ -235,7 +238,7 @@ class Wire {
       if (to == from || !ports_[to].device || (target != port_of_.end() && target->second != to)) continue;
       if (ports_[from].is_cut || ports_[to].is_cut) {
         counted_.cut++;
-      } else if (happens(line_.loss)) {
+      } else if (happens(line_.loss) || ((ports_[from].is_mute || ports_[to].is_mute) && is_data(frame))) {
         counted_.lost++;
       } else {
         queue(to, frame);
@@ -275,6 +278,14 @@ class Wire {
         counted_.out++;
       }
     }
+  }
+
+  // UDP over IPv4 to an odd port: discovery has even ones (DDSI-RTPS 2.2, section 9.6.1).
+  static bool is_data(const std::string& frame) {
+    constexpr std::size_t kHeader = 14;
+    if (frame.size() < kHeader + 20 || frame[kHeader - 2] != 8 || frame[kHeader + 9] != 17) return false;
+    const std::size_t port = kHeader + 4U * (static_cast<unsigned>(frame[kHeader]) & 15U) + 3;
+    return port < frame.size() && (static_cast<unsigned>(frame[port]) & 1U) != 0;
   }
 
   double uniform() { return std::uniform_real_distribution<>(0.0, 1.0)(random_); }
