@@ -141,35 +141,16 @@ std::optional<Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m) 
 
 namespace {
 
-// The number of a field as a double; nullopt: it is left out, or is no number.
-template <class Value>
-std::optional<double> number_of(const Value& value) {
-  if constexpr (std::is_arithmetic_v<Value>)
-    return static_cast<double>(value);
-  else
-    return std::nullopt;
-}
-template <class Value>
-std::optional<double> number_of(const std::optional<Value>& value) {
-  return value ? number_of(*value) : std::nullopt;
-}
-
-template <class Request>
-void check(const Request& request) {
-  values::visit_fields(request, [](const values::Field& field, const auto& value) {
-    if (const auto found = number_of(value); found && !field.contains(*found))
-      fail(beyond_field(std::string(field.name), field, *found));
-  });
-}
-
-// The field that a text names; null: none.
-const values::Field* field_named(std::span<const values::Field> fields, std::string_view name) {
-  const auto found = std::ranges::find(fields, name, &values::Field::name);
-  return found == fields.end() ? nullptr : &*found;
+// The field of a request that a text names; null: none.
+const values::Field* field_named(std::string_view name) {
+  for (const std::span<const values::Field> fields : values::kRequests)
+    for (const values::Field& field : fields)
+      if (field.name == name) return &field;
+  return nullptr;
 }
 
 // The text with each `NAME` or `NAME=VALUE` of a field replaced by what `spell` returns for it.
-std::string spelled_text(const std::string& text, std::span<const values::Field> fields, const Spell& spell) {
+std::string spelled_text(const std::string& text, const Spell& spell) {
   std::string changed;
   std::size_t at = 0;
   while (true) {
@@ -178,7 +159,7 @@ std::string spelled_text(const std::string& text, std::span<const values::Field>
     if (close == std::string::npos) return changed + text.substr(at);
     const std::string_view inside = std::string_view(text).substr(open + 1, close - open - 1);
     const std::size_t equals = inside.find('=');
-    const values::Field* const field = field_named(fields, inside.substr(0, equals));
+    const values::Field* const field = field_named(inside.substr(0, equals));
     changed += text.substr(at, open - at);
     changed += field == nullptr ? text.substr(open, close + 1 - open)
                                 : spell(*field, equals == std::string_view::npos ? "" : inside.substr(equals + 1));
@@ -187,13 +168,6 @@ std::string spelled_text(const std::string& text, std::span<const values::Field>
 }
 
 }  // namespace
-
-void check_fields(const ScanRequest& request) {
-  check(request);
-}
-void check_fields(const PatchRequest& request) {
-  check(request);
-}
 
 Error beyond_field(std::string subject, const values::Field& field, double found) {
   const std::string unit = field.unit.empty() ? "" : ' ' + std::string(field.unit);
@@ -206,18 +180,18 @@ Error beyond_field(std::string subject, const values::Field& field, double found
           field.high};
 }
 
-Error spelled(Error error, std::span<const values::Field> fields, const Spell& spell) {
+Error spelled(Error error, const Spell& spell) {
   // A subject is one name, or several with a comma between them.
   std::string subject;
   for (std::string_view rest = error.subject; !rest.empty();) {
     const std::string_view name = rest.substr(0, rest.find(", "));
-    const values::Field* const field = field_named(fields, name);
+    const values::Field* const field = field_named(name);
     subject += (subject.empty() ? "" : ", ") + (field == nullptr ? std::string(name) : spell(*field, ""));
     rest.remove_prefix(std::min(rest.size(), name.size() + 2));
   }
   error.subject = std::move(subject);
-  error.expected = spelled_text(error.expected, fields, spell);
-  error.action = spelled_text(error.action, fields, spell);
+  error.expected = spelled_text(error.expected, spell);
+  error.action = spelled_text(error.action, spell);
   return error;
 }
 

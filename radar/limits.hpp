@@ -7,23 +7,37 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "lib/error/error.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/values/fields.hpp"
 #include "model/hrm/patch_geometry.hpp"
+#include "radar/failure.hpp"
 
 namespace yars::radar {
 struct AntennaConfiguration;
 
-// Throws Failure if a field lies beyond its limits.
-void check_fields(const ScanRequest& request);
-void check_fields(const PatchRequest& request);
 // The error of a number beyond the limits of a field. `subject`: the field's name, or the path of an entry.
 Error beyond_field(std::string subject, const values::Field& field, double found);
+// Throws Failure if a field of a request lies beyond its limits.
+template <class Request>
+void check_fields(const Request& request) {
+  values::visit_fields(request, [](const values::Field& field, const auto& value) {
+    const auto check = [&field](const auto& number) {
+      if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(number)>>)
+        if (const auto found = static_cast<double>(number); !field.contains(found))
+          fail(beyond_field(std::string(field.name), field, found));
+    };
+    if constexpr (requires { value.has_value(); }) {
+      if (value) check(*value);
+    } else {
+      check(value);
+    }
+  });
+}
 
 // Limits of a patch map in level flight along the ground track, by radar::map_rejection(). `target_ground_m` [m] MSL:
 // terrain elevation at the map's centre; NaN: void, counts as sea level; nullopt: not known yet, so the elevation angle
@@ -38,8 +52,9 @@ std::optional<Error> beyond_gimbal(geo::Angle elevation, geo::Angle width, const
 // `ground_m` [m] MSL: terrain elevation below the aircraft; NaN: void, which is not checked.
 std::optional<Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m);
 
-// An error with other words for the fields that it names. spell(field, value): value is empty where none is given.
+// An error with other words for the fields of requests that it names. spell(field, value): value is empty where none is
+// given. Requests spell a field alike.
 using Spell = std::function<std::string(const values::Field& field, std::string_view value)>;
-Error spelled(Error error, std::span<const values::Field> fields, const Spell& spell);
+Error spelled(Error error, const Spell& spell);
 
 }  // namespace yars::radar

@@ -337,16 +337,4 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
   }
 }
 
-std::optional<std::string> CommandLine::read(const std::vector<std::string>& words) {
-  const auto line = [](const UsageMessage& message) { return text::printable(message.command + ": " + message.text); };
-  try {
-    app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes words from the end
-    return std::nullopt;
-  } catch (const CLI::ParseError& outcome) {
-    return line(usage_message(*app_, outcome, words));
-  } catch (const UsageMessage& message) {
-    return line(message);
-  }
-}
-
 }  // namespace yars::runtime

@@ -97,9 +97,6 @@ class CommandLine : public Command {
   // --help or --version. A number that is NaN or infinite and an empty text are usage errors. Exceptions of callbacks
   // are not caught.
   std::optional<int> parse(int argc, char** argv);
-  // Parses words after the program's name without the user's file, for callers that are no command line. Output: the
-  // line that parse() would print for a usage error; nullopt: none. Prints nothing.
-  std::optional<std::string> read(const std::vector<std::string>& words);
 
  private:
   std::string name_;

@@ -28,7 +28,8 @@ from generator import clients, cpp, dds, fields, idl, presets, schema, segment, 
 ROOT = HERE.parents[1]
 HEADER = "databuffer/client/yars_records.h"
 PYTHON = "python/yars/session.py"
-STUB = "python/yars/results.pyi"
+STUBS = {"python/yars/results.pyi": ("ScanRequest", "PatchRequest", "ScanTradeRequest", "MapTradeRequest"),
+         "python/yars/places.pyi": ("TerrainGeneration", "SceneGeneration")}
 KEYS = "python/yars/dataset/keys.py"
 PAGES = "station/web/src/values.ts"
 COMMANDS = "docs/commands.md"
@@ -104,12 +105,13 @@ def tree_files(chapters, layout, root):
     made = {LAYOUT: stability.text(chapters, layout), HEADER: clients.c_header(chapters, layout)}
     python = text_of(root / PYTHON)
     made[PYTHON] = with_part(PYTHON, python, clients.python_records(chapters))
-    stub = text_of(root / STUB)
     requests = idl.read(HERE, "requests.idl")
-    for name, part in fields.stubs(requests[-1]).items():
-        stub = with_part(STUB, stub, part, f"        # begin: lib/values/generate.py, {name}\n",
-                         f"        # end: {name}\n")
-    made[STUB] = stub
+    stubs = fields.stubs(requests[-1])
+    for file, names in STUBS.items():
+        made[file] = text_of(root / file)
+        for name in names:
+            made[file] = with_part(file, made[file], stubs[name], f"        # begin: lib/values/generate.py, {name}\n",
+                                   f"        # end: {name}\n")
     keys = with_part(KEYS, text_of(root / KEYS), "")
     made[KEYS] = with_part(KEYS, keys, fields.python_values(chapters, requests, keys))
     made[COMMANDS] = with_part(COMMANDS, text_of(root / COMMANDS), fields.lists_table(chapters),

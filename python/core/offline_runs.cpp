@@ -3,12 +3,20 @@
 #include <pybind11/stl.h>
 
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "lib/radar/configuration.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "python/core/calls.hpp"
+#include "python/core/places.hpp"
+#include "python/core/radar_class.hpp"
+#include "radar/failure.hpp"
 #include "radar/stores.hpp"
+#include "tools/command/output.hpp"
 #include "tools/scene/generate_command.hpp"
 #include "tools/terrain/generate_command.hpp"
 #include "tools/trade/trade_command.hpp"
@@ -17,73 +25,74 @@ namespace yars::python {
 
 namespace {
 
-template <class Options, class AddOptions>
-std::string measured(const AddOptions& add_options, const std::shared_ptr<Terrain>& terrain, const Radar& radar,
-                     const std::vector<std::string>& words) {
-  Options options;
-  read_options("yars.trade", words, [&](runtime::Command line) { add_options(line, options); });
-  tools::check_trade_output(options);
+// JSON that `yars trade --out` writes. Null terrain: that of the radar's configuration, else the built-in hills.
+template <class Request>
+std::string trade(const std::shared_ptr<Terrain>& terrain, const Radar& radar, const Request& request,
+                  const std::string& csv, const std::string& out) {
+  tools::check_file_name("out", out, {".json"});
+  tools::check_file_name("csv", csv, {".csv"});
   radar::RadarConfiguration configuration = radar.radar().configuration();
-  tools::apply_options(options.configuration, configuration);
   if (terrain) configuration.terrain = terrain->terrain().stores()->configuration();
   Warnings warnings;
   std::string text;
   without_interpreter([&](const parallel::GoesOn& goes_on) {
-    const tools::TradeResult result = tools::measure_trade(options, configuration, warnings.sink(), goes_on);
-    tools::write_trade_files(options, result);
+    const tools::TradeResult result = tools::measure_trade(request, configuration, warnings.sink(), goes_on);
+    tools::write_trade_files(csv, out, result);
     text = tools::json_text(result);
   });
   warnings.show("yars.trade");
   return text;
 }
 
-// Throws ValueError if the folder has cells that are not of this landscape's area and level.
-void check_other_cells(const tools::TerrainGenerateOptions& options) {
+// Throws if the folder has cells that are not of this landscape's area and level.
+void check_other_cells(const std::string& folder, const TerrainGeneration& request) {
   namespace terrain = model::terrain;
-  const auto index = terrain::index_directory(options.out);
+  const auto index = terrain::index_directory(folder);
   if (!index) return;  // no folder, or no cells
   for (const auto& [slot, file] : *index) {
     const terrain::CellCorner corner = terrain::corner_of_slot(slot);
-    const int rows = corner.south_deg - options.south_deg;
-    const int columns = (corner.west_deg - options.west_deg + 720) % 360;
-    if (rows >= 0 && rows < options.cells_latitude && columns < options.cells_longitude &&
-        file.path == std::filesystem::path(options.out) / terrain::dted_name(corner, options.level))
+    const int rows = corner.south_deg - request.south;
+    const int columns = (corner.west_deg - request.west + 720) % 360;
+    if (rows >= 0 && rows < request.cells_lat && columns < request.cells_lon &&
+        file.path == std::filesystem::path(folder) / terrain::dted_name(corner, request.level))
       continue;
-    raise_value_error(
-        "yars.Terrain.generate: directory: expected a folder without cells of another area or level, found " +
-        file.path.string() + "; give another folder, or remove it");
+    radar::fail(error::usage_error("directory", "a folder without cells of another area or level", file.path.string(),
+                                   "give another folder, or remove it"));
   }
+}
+
+void generate_terrain(const std::string& folder, const TerrainGeneration& request) {
+  without_interpreter([&](const parallel::GoesOn& goes_on) {
+    tools::check_folder_name("directory", folder);
+    check_other_cells(folder, request);
+    tools::generate_terrain_files(folder, request, goes_on);
+  });
+}
+
+// `origin`: LAT, LON or LAT, LON, HDG [deg] as numbers, or as a text with commas between them.
+void generate_scene(const std::string& file, const SceneGeneration& request,
+                    const std::variant<std::vector<double>, std::string>& origin) {
+  without_interpreter([&](const parallel::GoesOn& goes_on) {
+    tools::check_file_name("path", file, {".flt"});
+    const auto* const text = std::get_if<std::string>(&origin);
+    auto position = text != nullptr ? model::scene::parse_scene_position(*text)
+                                    : model::scene::scene_position(std::get<std::vector<double>>(origin));
+    if (!position) position.error().subject = "origin";
+    tools::generate_scene_file(file, request, value_of(std::move(position)), goes_on);
+  });
 }
 
 }  // namespace
 
-void generate_scene(const std::vector<std::string>& words) {
-  tools::SceneGenerateOptions options;
-  read_options("yars.Scene.generate", words,
-               [&](runtime::Command line) { tools::add_scene_generate_options(line, options); });
-  without_interpreter([&](const parallel::GoesOn& goes_on) { tools::generate_scene_file(options, goes_on); });
-}
-
-void generate_terrain(const std::vector<std::string>& words) {
-  tools::TerrainGenerateOptions options;
-  read_options("yars.Terrain.generate", words,
-               [&](runtime::Command line) { tools::add_terrain_generate_options(line, options); });
-  without_interpreter([&](const parallel::GoesOn& goes_on) {
-    check_other_cells(options);
-    tools::generate_terrain_files(options, goes_on);
-  });
-}
-
-std::string trade(bool maps, const std::shared_ptr<Terrain>& terrain, const Radar& radar,
-                  const std::vector<std::string>& words) {
-  if (maps) return measured<tools::MapTradeOptions>(tools::add_map_trade_options, terrain, radar, words);
-  return measured<tools::ScanTradeOptions>(tools::add_scan_trade_options, terrain, radar, words);
-}
-
 void add_offline_runs(py::module_& module) {
-  module.def("generate_terrain", &generate_terrain, py::arg("words"));
-  module.def("generate_scene", &generate_scene, py::arg("words"));
-  module.def("trade", &trade, py::arg("maps"), py::arg("terrain").none(true), py::arg("radar"), py::arg("words"));
+  module.def("generate_terrain", &generate_terrain, py::arg("directory"), py::arg("request"));
+  module.def("generate_scene", &generate_scene, py::arg("path"), py::arg("request"), py::arg("origin"));
+  const auto add_trade = [&module](auto* trade) {
+    module.def("trade", trade, py::arg("terrain").none(true), py::arg("radar"), py::arg("request"), py::arg("csv"),
+               py::arg("out"));
+  };
+  add_trade(&trade<ScanTradeRequest>);
+  add_trade(&trade<MapTradeRequest>);
 }
 
 }  // namespace yars::python

@@ -94,8 +94,8 @@ std::string text_of(const py::dtype& type) {
 template <class Entry>
 std::vector<Entry> entries_of(const py::array& given, const py::dtype& type, const char* name) {
   if (!py::cast<bool>(given.dtype().attr("__eq__")(type)) || given.ndim() != 1)
-    raise_value_error(std::string("yars.Radar.patches: ") + name + ": expected an array of one axis of the type " +
-                      text_of(type) + ", found " + std::to_string(given.ndim()) + " axes of " + text_of(given.dtype()));
+    raise(error::usage_error(name, "an array of one axis of the type " + text_of(type),
+                             std::to_string(given.ndim()) + " axes of " + text_of(given.dtype())));
   const py::array whole = py::module_::import("numpy").attr("ascontiguousarray")(given);
   std::vector<Entry> entries(static_cast<std::size_t>(whole.size()));
   YARS_REQUIRE(static_cast<std::size_t>(whole.itemsize()), ==, sizeof(Entry));
@@ -150,7 +150,7 @@ Outputs make_outputs(const SeriesRequest& request, std::size_t count, int size) 
     else if (name == "grazing_angle")
       make(name, outputs.grazing);
     else
-      raise_value_error("yars.Radar.patches: arrays: expected " + std::string(kArrays) + ", found '" + name + "'");
+      raise(error::usage_error("arrays", kArrays, "'" + name + "'"));
   }
   return outputs;
 }
@@ -166,7 +166,7 @@ struct Number {
 void check_numbers(const std::string& entry, std::initializer_list<Number> numbers) {
   for (const Number& number : numbers)
     if (!number.field.contains(number.value))
-      radar::fail(radar::beyond_field("yars.Radar.patches: " + entry + ": " + number.name, number.field, number.value));
+      radar::fail(radar::beyond_field(entry + ": " + number.name, number.field, number.value));
 }
 
 PatchRequest request_of(const std::string& entry, const Order& order, bool force) {
@@ -202,8 +202,7 @@ std::vector<std::vector<Mover>> movers_of(const py::object& given, std::size_t o
   std::vector<std::vector<Mover>> movers(orders);
   if (given.is_none()) return movers;
   const auto all = entries_of<MoverEntry>(py::cast<py::array>(given), mover_type(), "movers");
-  if (orders == 0 && !all.empty())
-    raise_value_error("yars.Radar.patches: movers: expected none without an order, found some");
+  if (orders == 0 && !all.empty()) raise(error::usage_error("movers", "none without an order", "some"));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const MoverEntry& mover = all[i];
     const std::string entry = "movers[" + std::to_string(i) + "]";
@@ -275,7 +274,7 @@ class Series {
     }
     if (!done) {
       Error error = done.error();
-      error.subject = "yars.Radar.patches: " + entry + (error.subject.empty() ? "" : ": " + error.subject);
+      error.subject = entry + (error.subject.empty() ? "" : ": " + error.subject);
       raise(error);
     }
     check_done(patch_->run({.goes_on = goes_on}));

@@ -49,7 +49,8 @@ py::dict Radar::patches(const std::shared_ptr<Terrain>& terrain, const py::array
 
 namespace {
 
-// What a field takes, for Python: "number", "whole number", "truth value", or the names of an enumeration.
+// What a field takes, for Python: "number", "whole number", "truth value", "text", "texts", or the names of an
+// enumeration.
 template <class Value>
 py::object kind_of(const values::Field& field) {
   if constexpr (std::is_same_v<Value, bool>) {
@@ -59,6 +60,10 @@ py::object kind_of(const values::Field& field) {
     for (const std::string_view name : field.values)
       if (!name.empty()) names.append(std::string(name));
     return py::tuple(names);
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    return py::str("text");
+  } else if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
+    return py::str("texts");
   } else {
     constexpr bool kReal = std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>;
     return py::str(kReal ? "number" : "whole number");
@@ -106,6 +111,10 @@ void add_radar(py::module_& module) {
       "Path of a file that came with YARS and is named without a folder; any other path as it is given.");
   add_request<ScanRequest>(module, "ScanRequest");
   add_request<PatchRequest>(module, "PatchRequest");
+  add_request<TerrainGeneration>(module, "TerrainGeneration");
+  add_request<SceneGeneration>(module, "SceneGeneration");
+  add_request<ScanTradeRequest>(module, "ScanTradeRequest");
+  add_request<MapTradeRequest>(module, "MapTradeRequest");
   py::class_<Radar> type(module, "Radar");
   type.def("scan", &Radar::scan, py::arg("terrain").none(false), py::arg("scene").none(true), py::arg("request"))
       .def("patch", &Radar::patch, py::arg("terrain").none(false), py::arg("scene").none(true), py::arg("request"))

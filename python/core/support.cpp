@@ -5,15 +5,12 @@
 #include <xxhash.h>
 
 #include <array>
-#include <span>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
 
-#include "lib/text/plain_text.hpp"
 #include "radar/failure.hpp"
 #include "radar/limits.hpp"
-#include "tools/command/command.hpp"
 
 namespace yars::python {
 
@@ -32,24 +29,21 @@ py::object text_of(const std::string& text) {
       PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
 }
 
-py::object value_error() {
-  return py::reinterpret_borrow<py::object>(PyExc_ValueError);
-}
-
 // The message with Python's keywords: heading_deg=45, force=True.
-std::string message_in_python(Error error) {
-  const auto spell = [](const values::Field& field, std::string_view value) {
-    return std::string(field.name) + (value.empty() ? "" : value == "true" ? "=True" : '=' + std::string(value));
-  };
-  for (const std::span<const values::Field> fields : {std::span<const values::Field>(values::ScanRequest::all),
-                                                      std::span<const values::Field>(values::PatchRequest::all)})
-    error = radar::spelled(std::move(error), fields, spell);
-  return error.message();
+std::string message_in_python(const Error& error) {
+  return radar::spelled(error,
+                        [](const values::Field& field, std::string_view value) {
+                          return std::string(field.name) + (value.empty()     ? ""
+                                                            : value == "true" ? "=True"
+                                                                              : '=' + std::string(value));
+                        })
+      .message();
 }
 
 void set_error(const Error& error) {
   static constexpr std::array kCodes{"failed", "argument", "range", "limit", "cancelled"};
-  const py::object type = error.code == ErrorCode::failed ? error_class() : value_error();
+  const py::object type =
+      error.code == ErrorCode::failed ? error_class() : py::reinterpret_borrow<py::object>(PyExc_ValueError);
   const py::object problem = type(text_of(message_in_python(error)));
   problem.attr("code") = kCodes[static_cast<std::size_t>(error.code)];
   problem.attr("field") = text_of(error.subject);
@@ -70,9 +64,6 @@ void register_exceptions(py::module_& /*module*/) {
           if (pointer) std::rethrow_exception(pointer);
         } catch (const radar::Failure& failure) {
           set_error(failure.error);
-        } catch (const tools::CommandFailed& failed) {
-          const py::object type = failed.code == runtime::kExitUsage ? value_error() : error_class();
-          PyErr_SetObject(type.ptr(), text_of(failed.message).ptr());
         }
       });
 }
@@ -80,17 +71,6 @@ void register_exceptions(py::module_& /*module*/) {
 void raise(const Error& error) {
   if (error.code == ErrorCode::cancelled) throw parallel::Stopped{};
   radar::fail(error);
-}
-void raise_value_error(const std::string& message) {
-  throw tools::CommandFailed{message, runtime::kExitUsage};
-}
-
-void read_options(const std::string& name, const std::vector<std::string>& words,
-                  const std::function<void(runtime::Command)>& add_options) {
-  const text::DecimalPoint numbers;
-  runtime::CommandLine line("", name);
-  add_options(line);
-  if (const auto fault = line.read(words)) raise_value_error(*fault);
 }
 
 void Warnings::show(const std::string& function, int frames) {

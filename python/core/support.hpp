@@ -1,12 +1,10 @@
-// Helpers of all parts of yars._core: errors, warnings, arguments in the form of command-line options, arrays without
-// copies.
+// Helpers of all parts of yars._core: errors, warnings, arrays without copies.
 // Errors: a wrong value of the caller is ValueError, every other failure is yars.Error.
 #pragma once
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,14 +13,12 @@
 #include "lib/error/error.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "radar/theatre.hpp"
-#include "runtime/command_line.hpp"
-#include "tools/command/command.hpp"
 
 namespace yars::python {
 
 namespace py = pybind11;
 
-// Translates CommandFailed and the errors of the libraries to Python's exceptions.
+// Translates the errors of the library to Python's exceptions.
 void register_exceptions(py::module_& module);
 
 // Adds xxh3() and xxh3_items(): hashes of the bytes of arrays.
@@ -31,7 +27,6 @@ void add_hashes(py::module_& module);
 // Throws ValueError for a wrong value of the caller, else yars.Error, with the fields of the error as attributes. The
 // error of a call that the caller stopped throws parallel::Stopped.
 [[noreturn]] void raise(const Error& error);
-[[noreturn]] void raise_value_error(const std::string& message);
 
 // Returns the value of a call of the library, or raises its error.
 template <class Value>
@@ -42,11 +37,6 @@ Value value_of(Expected<Value>&& given) {
 inline void check_done(const Expected<void>& done) {
   if (!done) raise(done.error());
 }
-
-// Parses command-line words, which arguments.py has made from a function's arguments. `name`: name of the function, for
-// messages. `add_options`: declares the options. Throws ValueError.
-void read_options(const std::string& name, const std::vector<std::string>& words,
-                  const std::function<void(runtime::Command)>& add_options);
 
 // Collects warnings while the interpreter's lock is released, and hands them to Python's module warnings afterwards.
 class Warnings {

@@ -1,4 +1,4 @@
-"""Arguments of the compiled part, and its messages in Python's words.
+"""Arguments of the compiled part, and its errors.
 
 What this module refuses is a TypeError for a wrong kind of value, and a ValueError for a wrong value. Each message
 names the function and the argument, and says what was expected and found.
@@ -7,7 +7,6 @@ import difflib
 import math
 import numbers
 import os
-import re
 import warnings
 
 from . import Error
@@ -107,41 +106,15 @@ def whole(where, value, low, high, optional=False):
     return int(value)
 
 
-def _value(where, value):
-    """The text of an option's value. Python's own number texts are the shortest that give the same number again."""
-    value = plain(value)
-    expected = "a number or a text"
-    if isinstance(value, str):
-        if not text(where, value, expected).strip():
-            raise ValueError(f"{where}: expected {expected}, found an empty text; leave it out for the default")
-        return value
-    if isinstance(value, bool) or value is None:
-        raise kind_error(where, expected, value)
-    if isinstance(value, numbers.Integral):
-        return _digits(where, int(value))
-    if isinstance(value, numbers.Real) or type(value).__name__ == "Decimal":
-        try:
-            return repr(float(value))
-        except OverflowError:
-            raise ValueError(f"{where}: expected {expected}, found {shown(value)}, which is too large") from None
-    raise kind_error(where, expected, value)
-
-
-def _digits(where, value):
-    if abs(value) >= 10 ** 30:
-        raise ValueError(f"{where}: expected a number, found a whole number of more than 30 digits")
-    return str(value)
-
-
 class Request:
     """Keyword arguments of a function that are the fields of a request (requests.idl).
     An older keyword gives a warning.
 
-    kind: the compiled class. rows: its fields, as the compiled part lists them.
+    kind: the compiled class. rows: its fields, as the compiled part lists them. others: arguments that are no fields.
     """
 
-    def __init__(self, function, kind, rows):
-        self.function, self.kind = function, kind
+    def __init__(self, function, kind, rows, others=()):
+        self.function, self.kind, self.others = function, kind, others
         self.rows = {row[0]: row[2:] for row in rows}
         self.older = {row[1]: row[0] for row in rows if row[1] != row[0]}
 
@@ -161,8 +134,8 @@ class Request:
     def _renamed(self, key):
         name = self.older.get(key)
         if name is None:
-            near = difflib.get_close_matches(key, [*self.rows, *self.older], 1)
-            raise ValueError(f"{self.function}: expected arguments of {', '.join(self.rows)}, "
+            near = difflib.get_close_matches(key, [*self.rows, *self.older, *self.others], 1)
+            raise ValueError(f"{self.function}: expected arguments of {', '.join([*self.rows, *self.others])}, "
                              f"found {ascii(key)[:_LONGEST]}"
                              + (f"; did you mean {near[0]}?" if near else f"; see help({self.function})"))
         warnings.warn(f"{self.function}: {key} is an older word for {name}, and goes with the next version",
@@ -177,6 +150,13 @@ class Request:
             return whole(where, value, *((int(low), int(high)) if math.isfinite(high) else (0, 2 ** 64 - 1)))
         if kind == "number":
             return number(where, value)
+        if kind == "text":
+            return text(where, value)
+        if kind == "texts":
+            given = [value] if isinstance(value, str) else several(value)
+            if given is None:
+                raise kind_error(where, "a text, or a list of texts", value)
+            return [text(where, one) for one in given]
         if not isinstance(value, str):
             raise kind_error(where, f"one of {', '.join(kind)}", value)
         if value not in kind:
@@ -197,90 +177,20 @@ def number(where, value):
     return value
 
 
-class Options:
-    """Keyword arguments of a function that are the options of a command.
-
-    flags: names that are True or False. lists: that take several values. optional: for which None is the default.
-    paths: files to write. commas: lists that become one text. Others take one value.
-    """
-
-    def __init__(self, function, names, *, flags=(), lists=(), optional=(), paths=(), commas=()):
-        self.function, self.names = function, tuple(names)
-        self.flags, self.lists, self.optional, self.paths, self.commas = flags, lists, optional, paths, commas
-
-    def words(self, given):
-        """Words of the command's line: lat=37.5 is --lat=37.5, alt_ft is --alt-ft, a list repeats its option."""
-        words = []
-        for name, value in given.items():
-            where = f"{self.function}: {name}"
-            if name not in self.names:
-                near = difflib.get_close_matches(name, self.names, 1)
-                raise ValueError(f"{self.function}: expected arguments of {', '.join(self.names)}, "
-                                 f"found {ascii(name)[:_LONGEST]}"
-                                 + (f"; did you mean {near[0]}?" if near else f"; see help({self.function})"))
-            option = "--" + name.replace("_", "-")
-            if value is None and (name in self.optional or name in self.flags):
-                continue
-            if name in self.flags:
-                words += [option] if truth(where, value) else []
-            elif name in self.paths:
-                words.append(os.fsencode(option + "=") + path(where, value))
-            else:
-                words += [f"{option}={one}" for one in self._values(where, name, value)]
-        return words
-
-    def _values(self, where, name, value):
-        entries = several(value)
-        if name == "seed" and not isinstance(value, str):
-            return [str(whole(where, value, 0, 2 ** 64 - 1))]
-        if entries is None:
-            return [_value(where, value)]
-        if name in self.commas:
-            return [",".join(_value(where, entry) for entry in entries)]
-        if name not in self.lists:
-            raise kind_error(where, "one number or text", value)
-        return [_value(f"{where}[{at}]", entry) for at, entry in enumerate(entries)]
-
-
-# Words of the commands' messages -> Python's. Texts in quotes are values, and stay.
-_WORDS = ((r"--terrain\b", "terrain"), (r"--fidelity (\w+)", r'a Radar("\1")'), (r"--scene-without\b", "without"),
-          (r"--origin@", "origin "), (r"\b([Ss]ee) (yars\.[A-Za-z.]+) --help", r"\1 help(\2)"),
-          (r"`yars (terrain|scene) generate(?: --out \w+)?`", lambda found: f"yars.{found[1].capitalize()}.generate()"),
-          (r"\bgive --force\b", "give force=True"), (r"\bgive --([a-z-]+) (-?[0-9.]+)", r"give --\1=\2"),
-          (r"--([a-z][a-z0-9-]*)", lambda found: found[1].replace("-", "_")))
-
-
-def in_python(message):
-    """A message of the commands in Python's words; long numbers are cut."""
-    message = re.sub(r"\d{40,}", lambda found: f"{found[0][:12]}... ({len(found[0])} digits)", message)
-    parts = re.split(r"('[^']*')", message)
-    for at in range(0, len(parts), 2):
-        for pattern, word in _WORDS:
-            parts[at] = re.sub(pattern, word, parts[at])
-    return "".join(parts)
-
-
 class Said:
-    """with Said("yars.Radar.scan"): errors of the compiled part have Python's words and the function's name. `out`: the
-    argument that is the option --out."""
+    """with Said("yars.Radar.scan"): messages of the compiled part begin with the function's name."""
 
-    def __init__(self, function, out="out"):
-        self.function, self.out = function, out
+    def __init__(self, function):
+        self.function = function
 
     def __enter__(self):
         return self
 
     def __exit__(self, kind, problem, _):
-        if kind is not ValueError and kind is not Error:
-            return
-        if hasattr(problem, "expected"):  # an error of the library, which names arguments as Python does
-            message = str(problem)
-            said = kind(message if message.startswith("yars.") else f"{self.function}: {message}")
+        if kind in (ValueError, Error):
+            said = kind(f"{self.function}: {problem}")
             vars(said).update(vars(problem))
             raise said from None
-        message = re.sub(r"^(yars\.[\w.]+: )?--out:", lambda found: (found[1] or "") + self.out + ":", str(problem))
-        message = in_python(message)
-        raise kind(message if message.startswith("yars.") else f"{self.function}: {message}") from None
 
 
 class Held:

@@ -4,12 +4,10 @@ import os
 import numpy
 
 from . import _core
-from .arguments import Held, Options, Said, absolute, instance, kind_error, path, plain, several, text
+from .arguments import Held, Request, Said, absolute, instance, kind_error, number, path, several, text
 
-_GENERATED_TERRAIN = Options("yars.Terrain.generate",
-                             ("south", "west", "cells_lat", "cells_lon", "level", "seed", "edge", "culture",
-                              "airfields", "sea", "threads"), flags=("culture", "sea"))
-_GENERATED_SCENE = Options("yars.Scene.generate", ("kind", "triangles", "seed", "origin"))
+_TERRAIN = Request("yars.Terrain.generate", _core.TerrainGeneration, _core.TerrainGeneration_fields)
+_SCENE = Request("yars.Scene.generate", _core.SceneGeneration, _core.SceneGeneration_fields, ("origin",))
 
 
 def _degrees(where, value):
@@ -91,22 +89,19 @@ class Terrain(Held):
         return heights
 
     @staticmethod
-    def generate(directory, **options):
+    def generate(directory, **fields):
         """Writes a made-up landscape as DTED cells.
 
-        As `yars terrain generate`: options south, west [deg], cells_lat, cells_lon, level 0 to 2, seed, edge ("coast"
+        As `yars terrain generate`: fields south, west [deg], cells_lat, cells_lon, level, seed, edge ("coast"
         or "cut"), culture (False: none), airfields ("paved" or "soil"), sea, threads. Returns the directory. A folder
         with cells of another area or another level is refused, so that a Terrain of it has no cells but these.
-        Errors: ValueError for options, yars.Error for files that cannot be written.
+        Errors: ValueError for fields, yars.Error for files that cannot be written.
         """
         where = "yars.Terrain.generate"
         folder = path(f"{where}: directory", directory)
-        words = _GENERATED_TERRAIN.words(options)
-        if "culture" in options:
-            words = [word for word in words if word != "--culture"] + ([] if plain(options["culture"])
-                                                                       else ["--no-culture"])
-        with Said(where, "directory"):
-            _core.generate_terrain([*words, b"--out=" + folder])
+        request = _TERRAIN.of(fields)
+        with Said(where):
+            _core.generate_terrain(folder, request)
         return os.fsdecode(folder)
 
     def __repr__(self):
@@ -163,24 +158,28 @@ class Scene(Held):
         return self._core.objects
 
     @staticmethod
-    def generate(path, **options):  # pylint: disable=redefined-outer-name
+    def generate(path, origin=None, **fields):  # pylint: disable=redefined-outer-name
         """Writes a made-up scene as an OpenFlight file.
 
-        As `yars scene generate`: kind ("airfield", "harbour", "bridge" or "town"), triangles (about as many), seed,
-        origin=(latitude, longitude) or (latitude, longitude, heading) [deg]. Returns the path.
-        Errors: ValueError for options, yars.Error for a file that cannot be written.
+        As `yars scene generate`: fields kind ("airfield", "harbour", "bridge" or "town"), triangles (about as many),
+        seed; origin=(latitude, longitude) or (latitude, longitude, heading) [deg]. Returns the path.
+        Errors: ValueError for fields, yars.Error for a file that cannot be written.
         """
         where = "yars.Scene.generate"
         file = _path(f"{where}: path", path)
-        origin = several(options.get("origin"))
-        if origin is not None:
-            expected = "(latitude, longitude) or (latitude, longitude, heading)"
-            if len(origin) not in (2, 3):
-                raise ValueError(f"{where}: origin: expected {expected}, found a sequence of length {len(origin)}")
-            options["origin"] = ",".join(one.partition("=")[2] for part in origin
-                                         for one in _GENERATED_SCENE.words({"origin": part}))
-        with Said(where, "path"):
-            _core.generate_scene([*_GENERATED_SCENE.words(options), b"--out=" + file])
+        request = _SCENE.of(fields)
+        expected = "(latitude, longitude) or (latitude, longitude, heading)"
+        if origin is None:
+            raise ValueError(f"{where}: expected origin={expected}, found none")
+        if not isinstance(origin, str):
+            numbers = several(origin)
+            if numbers is None:
+                raise kind_error(f"{where}: origin", expected, origin)
+            if len(numbers) not in (2, 3):
+                raise ValueError(f"{where}: origin: expected {expected}, found a sequence of length {len(numbers)}")
+            origin = [number(f"{where}: origin[{at}]", one) for at, one in enumerate(numbers)]
+        with Said(where):
+            _core.generate_scene(file, request, origin)
         return os.fsdecode(file)
 
     def __repr__(self):

@@ -20,7 +20,7 @@ import numpy
 
 from . import Error, _core, _require
 from ._core import MOVER, PATCH_ORDER
-from .arguments import (Held, Options, Request, Said, absolute, instance, kind_error, number, path, plain, several,
+from .arguments import (Held, Request, Said, absolute, instance, kind_error, number, path, plain, several,
                         shown, text, truth, whole)
 from .places import Scene, Terrain
 from .recordings import Recording
@@ -199,12 +199,9 @@ class Patch(_Picture):
 _SCAN = Request("yars.Radar.scan", _core.ScanRequest, _core.ScanRequest_fields)
 _PATCH = Request("yars.Radar.patch", _core.PatchRequest, _core.PatchRequest_fields)
 _THREADS = next([int(end) for end in field[4:]] for field in _core.PatchRequest_fields if field[0] == "threads")
-_TRADE = ("presets", "knob", "base", "ruler", "repeat", "csv", "out", "scene")
-_TRADES = {maps: Options("yars.trade", (*_TRADE, *more), lists=("knob", "scene", "view", "scene_without"),
-                         commas=("presets",), paths=("csv", "out"),
-                         optional=("knob", "csv", "out", "scene", "view", "scene_without"))
-           for maps, more in ((False, ("scan_width", "ruler_samples")),
-                              (True, ("view", "ruler_size", "scene_without")))}
+_TRADES = [Request("yars.trade", *of, ("csv", "out"))
+           for of in ((_core.ScanTradeRequest, _core.ScanTradeRequest_fields),
+                      (_core.MapTradeRequest, _core.MapTradeRequest_fields))]
 _PRESETS = ("1996", "draft", "standard", "fine", "reference")  # generated
 
 
@@ -393,27 +390,27 @@ class Radar(Held):
         return terrain._core, scene and scene._core
 
 
-def trade(terrain=None, radar=None, *, maps=False, **options):
+def trade(terrain=None, radar=None, *, maps=False, csv=None, out=None, **fields):
     """Speed against accuracy of presets and knobs, as `yars trade`; with maps=True as `yars trade maps`.
 
     Returns a dict of the layout of `yars trade --out FILE.json`, which yars.plot.trade_front draws: points, a dict for
     each candidate with mean, worst, worst_scene and scenes of each column (None: no value); scenes; axes.
     terrain: Terrain; None: that of the radar's configuration, else the built-in hills. radar: Radar whose configuration
-    is used; its fidelity is not. options: those of the command, such as presets="1996,standard",
-    knob=["samples=120,240"], base, ruler, repeat, scene or view (lists of texts), scan_width, out and csv (files to
-    write).
+    is used; its fidelity is not. fields: the options of the command, such as presets="1996,standard",
+    knob=["samples=120,240"], base, ruler, repeat, scene or view (lists of texts), width_deg. out, csv: files to write.
     >>> rows = yars.trade(presets="draft", scene="37,-122,15000,60,10", repeat=1, ruler_samples=60)
     >>> rows["points"][0]["point"], rows["scenes"]
     ('draft', ['37 -122 15000 ft 60 deg 10 NM'])
 
-    Other threads of Python run meanwhile, and make the times larger. Errors: ValueError for options, yars.Error for
+    Other threads of Python run meanwhile, and make the times larger. Errors: ValueError for fields, yars.Error for
     files.
     """
     where = "yars.trade"
     instance(f"{where}: terrain", terrain, Terrain, optional=True)
     instance(f"{where}: radar", radar, Radar, optional=True)
     maps = truth(f"{where}: maps", maps)
-    words = _TRADES[maps].words(options)
+    request = _TRADES[maps].of(fields)
+    files = [b"" if file is None else path(f"{where}: {name}", file) for name, file in (("csv", csv), ("out", out))]
     radar = Radar() if radar is None else radar
     with Said(where):
-        return json.loads(_core.trade(maps, terrain and terrain._core, radar._core, words))
+        return json.loads(_core.trade(terrain and terrain._core, radar._core, request, *files))

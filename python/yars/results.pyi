@@ -1,6 +1,6 @@
 from collections.abc import Iterable
 from os import PathLike
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -144,22 +144,56 @@ class Radar(Held):
         min_pixels: int = 0,
     ) -> dict[str, NDArray[Any]]: ...
 
+@overload
 def trade(
     terrain: Terrain | None = None,
     radar: Radar | None = None,
     *,
-    maps: bool = False,
-    presets: str | list[str] = "all",
-    knob: str | list[str] | None = None,
-    base: _Preset = "standard",
-    ruler: Literal["reference", "same"] = "reference",
-    repeat: int = 5,
+    maps: Literal[False] = False,
     csv: str | bytes | PathLike[str] | None = None,
     out: str | bytes | PathLike[str] | None = None,
-    scene: str | list[str] | None = None,
-    scan_width: float = ...,
-    ruler_samples: int = ...,
-    view: str | list[str] | None = None,
-    ruler_size: int = ...,
-    scene_without: str | list[str] | None = None,
+        # begin: lib/values/generate.py, ScanTradeRequest
+        presets: str | list[str] | None = ...,  # preset names separated by commas, or all, or none; left out: all
+        # KNOB=VALUE,VALUE,...: values of one setting of the base; repeatable; left out: none
+        knob: str | list[str] | None = ...,
+        base: str = ...,  # preset in which a knob changes one setting
+        # reference: this preset; same: the reference algorithm with the other settings of each candidate
+        ruler: Literal["reference", "same"] = ...,
+        # 1 to 1000: number of timed runs with warm caches; the result is their median. The reference algorithm runs
+        # once
+        repeat: int = ...,
+        # place and range of a scan: LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable; left out: three ranges in the middle of
+        # the terrain
+        scene: str | list[str] | None = ...,
+        width_deg: float = ...,  # [deg] 1 to 120: width of the scan in azimuth
+        ruler_samples: int = ...,  # 1 to 4096: samples per sweep of the ruler reference
+        # end: ScanTradeRequest
+) -> dict[str, Any]: ...
+@overload
+def trade(
+    terrain: Terrain | None = None,
+    radar: Radar | None = None,
+    *,
+    maps: Literal[True],
+    csv: str | bytes | PathLike[str] | None = None,
+    out: str | bytes | PathLike[str] | None = None,
+        # begin: lib/values/generate.py, MapTradeRequest
+        presets: str | list[str] | None = ...,  # preset names separated by commas, or all, or none; left out: all
+        # KNOB=VALUE,VALUE,...: values of one setting of the base; repeatable; left out: none
+        knob: str | list[str] | None = ...,
+        base: str = ...,  # preset in which a knob changes one setting
+        # reference: this preset; same: the reference algorithm with the other settings of each candidate
+        ruler: Literal["reference", "same"] = ...,
+        # 1 to 1000: number of timed runs with warm caches; the result is their median. The reference algorithm runs
+        # once
+        repeat: int = ...,
+        # OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable; left out: the configuration's alone
+        scene: str | list[str] | None = ...,
+        # name of objects or groups to leave out of scenes, with * and ?; repeatable; left out: none
+        scene_without: str | list[str] | None = ...,
+        # place and window of a map: LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable; left out: three windows
+        # in the middle of the terrain
+        view: str | list[str] | None = ...,
+        ruler_size: int = ...,  # [pixels] 16 to 1024: edge of the map of the ruler reference
+        # end: MapTradeRequest
 ) -> dict[str, Any]: ...

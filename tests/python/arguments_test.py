@@ -134,7 +134,7 @@ class Arguments(Folder):
                                      "found one on '.*land'", call)
         for call, pattern in ((lambda: yars.Scene.generate(self.folder / "a.png", origin=(1, 2)), "ends in .flt"),
                               (lambda: yars.Scene.generate(self.folder / "a.flt", kind="city", origin=(1, 2)),
-                               "kind: expected airfield"),
+                               "kind: expected one of airfield"),
                               (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(91, 2)),
                                "origin: expected LATITUDE"),
                               (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(1,)),
@@ -151,6 +151,19 @@ class Arguments(Folder):
                               (lambda: yars.Terrain.generate(self.folder / "x", south=89, cells_lat=3), "north pole")):
             self.refused(ValueError, pattern, call)
         self.refused(yars.Error, "expected", lambda: yars.Scene.generate(folder + "/../town.flt/a.flt", origin=(1, 2)))
+
+    def test_errors_of_made_up_places_and_trades_have_their_fields(self):
+        for call, field, high in (
+                (lambda: yars.Terrain.generate(self.folder / "x", south=89, cells_lat=3), "cells_lat", 1.0),
+                (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(91, 2)), "origin", None),
+                (lambda: yars.trade(width_deg=121), "width_deg", 120.0),
+                (lambda: yars.trade(base="fast"), "base", None)):
+            with self.assertRaises(ValueError) as caught:
+                call()
+            self.assertEqual((caught.exception.field, caught.exception.high), (field, high))
+        with self.assertWarnsRegex(DeprecationWarning, "scan_width is an older word for width_deg"):
+            self.refused(ValueError, "width_deg: expected 1 to 120 deg", lambda: yars.trade(scan_width=121))
+        self.refused(TypeError, "knob: expected a text", lambda: yars.trade(knob=3))
 
     def test_arrays_are_no_whole_numbers(self):
         terrain, radar = yars.Terrain(), yars.Radar("draft")

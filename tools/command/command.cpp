@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -58,15 +57,11 @@ radar::RadarConfiguration read_configuration(const std::string& file, const Conf
   if (!loaded) throw_failure(loaded.error());
   for (const std::string& warning : loaded->warnings) std::fprintf(stderr, "yars: %s\n", warning.c_str());
   radar::RadarConfiguration configuration = std::move(loaded->radar);
-  apply_options(options, configuration);
-  return configuration;
-}
-
-void apply_options(const ConfigurationOptions& options, radar::RadarConfiguration& configuration) {
   if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
   if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
   if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
     throw_failure(error::usage_error(added.error()));
+  return configuration;
 }
 
 namespace {
@@ -98,7 +93,11 @@ void add_field(runtime::Command command, const values::Field& field, Value& valu
   const std::string name = "--" + std::string(field.option);
   const std::string help = help_of(field);
   if constexpr (std::is_same_v<Value, bool>) {
-    command.flag(name, value, help);
+    command.flag(value ? name + ",!--no-" + std::string(field.option) : name, value, help);
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    command.option(name, value, help);
+  } else if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
+    command.option(name, value, help).repeatable().otherwise(std::string(field.otherwise));
   } else if constexpr (std::is_enum_v<Value>) {
     std::vector<std::string> names;
     for (const std::string_view one : field.values)
@@ -114,11 +113,6 @@ void add_field(runtime::Command command, const values::Field& field, Value& valu
   }
 }
 
-template <class Request>
-void add_all(runtime::Command command, Request& request) {
-  values::visit_fields(request, [&](const values::Field& field, auto& value) { add_field(command, field, value); });
-}
-
 }  // namespace
 
 runtime::Option add_value(runtime::Command command, const std::string& name, const values::Field& field,
@@ -130,28 +124,26 @@ runtime::Option add_value(runtime::Command command, const std::string& name, con
   return add_number(command, name, field, value);
 }
 
-void add_request_options(runtime::Command command, ScanRequest& request) {
-  add_all(command, request);
+template <class Request>
+void add_request_options(runtime::Command command, Request& request) {
+  values::visit_fields(request, [&](const values::Field& field, auto& value) { add_field(command, field, value); });
 }
-void add_request_options(runtime::Command command, PatchRequest& request) {
-  add_all(command, request);
-}
+template void add_request_options(runtime::Command, ScanRequest&);
+template void add_request_options(runtime::Command, PatchRequest&);
+template void add_request_options(runtime::Command, TerrainGeneration&);
+template void add_request_options(runtime::Command, SceneGeneration&);
+template void add_request_options(runtime::Command, ScanTradeRequest&);
+template void add_request_options(runtime::Command, MapTradeRequest&);
 
 CommandFailed failure_of(const error::Error& error) {
-  // Both requests spell a field alike.
-  error::Error in_options = error;
-  if (in_options.subject == "scene") in_options.subject = "--scene";
-  const auto spell = [](const values::Field& field, std::string_view value) {
+  const error::Error in_options = radar::spelled(error, [](const values::Field& field, std::string_view value) {
     return "--" + std::string(field.option) + (value.empty() || value == "true" ? "" : ' ' + std::string(value));
-  };
-  for (const std::span<const values::Field> fields : {std::span<const values::Field>(values::ScanRequest::all),
-                                                      std::span<const values::Field>(values::PatchRequest::all)})
-    in_options = radar::spelled(std::move(in_options), fields, spell);
+  });
   return {in_options.message(), error.bad_usage() ? runtime::kExitUsage : runtime::kExitFailure};
 }
 
 void throw_failure(const error::Error& error) {
-  throw failure_of(error);
+  radar::fail(error);
 }
 
 Warn warn_as(const char* command) {

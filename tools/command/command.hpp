@@ -1,6 +1,7 @@
 // Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand. The other add_...
 // functions register subcommands of a subcommand, or options that several subcommands share.
-// Errors: a callback that fails throws CommandFailed. yars_main prints its message as one line and returns its code.
+// Errors: a callback that fails throws radar::Failure or CommandFailed. yars_main prints its message as one line and
+// returns its code.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,7 @@ struct CommandFailed {
 
 // The failure of an error: code 2 for bad usage, else 1. Fields of requests that the error names become options.
 CommandFailed failure_of(const error::Error& error);
-[[noreturn]] void throw_failure(const error::Error& error);
+[[noreturn]] void throw_failure(const error::Error& error);  // throws radar::Failure
 
 // Options that all subcommands share. They are parsed before any callback runs.
 struct CommonOptions {
@@ -60,15 +61,13 @@ model::scene::NameFilter name_filter(const std::vector<std::string>& names);
 runtime::Option add_preset_option(runtime::Command command, const std::string& name, std::string& preset,
                                   const std::string& help);
 // The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Prints the warnings about the
-// file on standard error. Throws CommandFailed for a file that cannot be loaded, or a scene option that is not valid.
+// file on standard error. Throws radar::Failure for a file that cannot be loaded, or a scene option that is not valid.
 // Callers must include lib/radar/configuration.hpp, because RadarConfiguration is only declared here.
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
-// Changes a configuration by `options`. Throws CommandFailed for a scene option that is not valid.
-void apply_options(const ConfigurationOptions& options, radar::RadarConfiguration& configuration);
 
 // Adds an option for each field of a request (lib/values/requests.idl).
-void add_request_options(runtime::Command command, ScanRequest& request);
-void add_request_options(runtime::Command command, PatchRequest& request);
+template <class Request>
+void add_request_options(runtime::Command command, Request& request);
 
 // Adds an option or argument for a value (lib/values/fields.hpp), with its unit, limits and purpose. `name`: "--rate".
 runtime::Option add_value(runtime::Command command, const std::string& name, const values::Field& field, double& value);
@@ -79,7 +78,7 @@ using radar::LeftOut;
 using radar::Warn;
 // Prints warnings on standard error. `command`: prefix of each line, such as "yars scan".
 Warn warn_as(const char* command);
-// Throws CommandFailed with code 1 if something was left out (LeftOut). Call after the results are written.
+// Throws radar::Failure, for code 1, if something was left out (LeftOut). Call after the results are written.
 void fail_if_left_out(const std::vector<std::string>& left_out);
 
 void add_scan_command(runtime::Command app, const CommonOptions& common);

@@ -1,5 +1,5 @@
 // Output helpers of the subcommands: checks of output names, raw float files, run times, progress reports.
-// Errors: the check_... functions throw CommandFailed, before the computation starts.
+// Errors: the check_... functions throw radar::Failure, before the computation starts.
 #pragma once
 
 #include <chrono>

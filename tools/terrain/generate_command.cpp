@@ -21,6 +21,7 @@
 #include "lib/text/plain_text.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/formats/dted.hpp"
+#include "radar/limits.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
@@ -33,14 +34,14 @@ namespace {
 using namespace model::terrain;
 
 // Cells of the area in blocks of 8 x 8: consecutive cells are neighbours and share cached features and relief.
-std::vector<CellCorner> corners_of(const TerrainGenerateOptions& options) {
+std::vector<CellCorner> corners_of(const TerrainGeneration& request) {
   constexpr int kBlock = 8;
   std::vector<CellCorner> corners;
-  for (int south = 0; south < options.cells_latitude; south += kBlock)
-    for (int west = 0; west < options.cells_longitude; west += kBlock)
-      for (int row = south; row < std::min(south + kBlock, options.cells_latitude); ++row)
-        for (int column = west; column < std::min(west + kBlock, options.cells_longitude); ++column)
-          corners.push_back(worldgen::neighbour_of({options.south_deg, options.west_deg}, row, column));
+  for (int south = 0; south < request.cells_lat; south += kBlock)
+    for (int west = 0; west < request.cells_lon; west += kBlock)
+      for (int row = south; row < std::min(south + kBlock, request.cells_lat); ++row)
+        for (int column = west; column < std::min(west + kBlock, request.cells_lon); ++column)
+          corners.push_back(worldgen::neighbour_of({request.south, request.west}, row, column));
   return corners;
 }
 
@@ -48,14 +49,15 @@ std::vector<CellCorner> corners_of(const TerrainGenerateOptions& options) {
 // threads work on one cell.
 class Generation {
  public:
-  Generation(const TerrainGenerateOptions& options, const parallel::GoesOn& goes_on)
-      : options_(options),
+  Generation(std::string folder, const TerrainGeneration& request, const parallel::GoesOn& goes_on)
+      : folder_(std::move(folder)),
+        request_(request),
         goes_on_(goes_on),
-        landscape_(options.seed, island_of(options), options.airfields == "paved"),
-        corners_(corners_of(options)),
+        landscape_(request.seed, island_of(request), request.airfields == AirfieldCulture::paved),
+        corners_(corners_of(request)),
         progress_(corners_.size()) {
     const int threads =
-        options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+        request.threads > 0 ? request.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const int cells = static_cast<int>(corners_.size());
     workers_ = std::min(threads, cells);
     threads_per_cell_ = cells >= 2 * threads ? 1 : std::max(1, threads / workers_);
@@ -89,9 +91,9 @@ class Generation {
   }
 
  private:
-  static std::optional<worldgen::LandscapeBox> island_of(const TerrainGenerateOptions& options) {
-    if (options.edge == "cut") return std::nullopt;
-    return worldgen::LandscapeBox{options.south_deg, options.west_deg, options.cells_latitude, options.cells_longitude};
+  static std::optional<worldgen::LandscapeBox> island_of(const TerrainGeneration& request) {
+    if (request.edge == LandEdge::cut) return std::nullopt;
+    return worldgen::LandscapeBox{request.south, request.west, request.cells_lat, request.cells_lon};
   }
 
   // Asked by the thread that has called run().
@@ -104,7 +106,7 @@ class Generation {
     for (std::size_t number = next_++; number < corners_.size() && !stop_; number = next_++) {
       const CellCorner corner = corners_[number];
       std::string note;
-      if (options_.sea || landscape_.may_have_land(corner)) {
+      if (request_.sea || landscape_.may_have_land(corner)) {
         try {
           const auto made = make(corner, goes_on);
           if (!made) return fail(made.error());
@@ -121,15 +123,15 @@ class Generation {
   // Generates and writes one cell. Returns a line that describes the cell. Without --sea, no file is written for an
   // all-sea cell, and the line is empty.
   error::Expected<std::string> make(CellCorner corner, const parallel::GoesOn& goes_on) {
-    const worldgen::MadeCell made = landscape_.make(corner, dted::kPostsOfLevel[options_.level],
-                                                    dted_columns(corner, options_.level), threads_per_cell_, goes_on);
+    const worldgen::MadeCell made = landscape_.make(corner, dted::kPostsOfLevel[request_.level],
+                                                    dted_columns(corner, request_.level), threads_per_cell_, goes_on);
     const bool all_sea = made.cell.highest_m() <= 0;
-    if (all_sea && !options_.sea) return std::string();
+    if (all_sea && !request_.sea) return std::string();
     // The culture is written before the cell, so that no new cell is left with an older culture or without its own.
-    const std::filesystem::path target = std::filesystem::path(options_.out) / dted_name(corner, options_.level);
-    const auto culture = options_.culture ? write_culture(culture_path(target), made.culture) : remove_culture(target);
+    const std::filesystem::path target = std::filesystem::path(folder_) / dted_name(corner, request_.level);
+    const auto culture = request_.culture ? write_culture(culture_path(target), made.culture) : remove_culture(target);
     if (!culture) return tl::unexpected(culture.error());
-    const auto path = write_dted(options_.out, made.cell, options_.level);
+    const auto path = write_dted(folder_, made.cell, request_.level);
     if (!path) return tl::unexpected(path.error());
     written_ += all_sea ? 0 : 1;
     return path->string() + "  " + std::to_string(std::lround(made.cell.lowest_m())) + " to " +
@@ -142,7 +144,8 @@ class Generation {
     if (!failed_) failed_ = error;
   }
 
-  TerrainGenerateOptions options_;
+  std::string folder_;
+  TerrainGeneration request_;
   const parallel::GoesOn& goes_on_;
   worldgen::Landscape landscape_;
   std::vector<CellCorner> corners_;
@@ -159,60 +162,44 @@ class Generation {
   std::optional<error::Error> failed_;
 };
 
-void add_area(runtime::Command command, TerrainGenerateOptions& options) {
-  command.option("--south", options.south_deg, "[deg] south edge").range(-90, 89);
-  command.option("--west", options.west_deg, "[deg] west edge").range(-180, 179);
-  command.option("--cells-lat", options.cells_latitude, "cells northward").range(1, 180);
-  command.option("--cells-lon", options.cells_longitude, "cells eastward").range(1, 360);
-}
-
 }  // namespace
 
-void add_terrain_generate_options(runtime::Command command, TerrainGenerateOptions& options) {
-  command.option("--out", options.out, "folder for the cells").value_name("DIR").required();
-  add_area(command, options);
-  command.option("--level", options.level, "DTED level").range(0, 2);
-  command.option("--seed", options.seed, "seed of the landscape; each seed gives another earth");
-  command
-      .option(
-          "--edge", options.edge,
-          "coast: land ends at the sea inside the area's edge; cut: land continues to the edge, for areas that join")
-      .one_of({"coast", "cut"});
-  command.flag("--culture,!--no-culture", options.culture,
-               "surface materials beside each cell, wLLL/nBB.smc.png; on by default");
-  command
-      .option("--airfields", options.airfields,
-              "culture of airfields: paved, with runway, apron and hangars; soil, for scenes that have these")
-      .one_of({"paved", "soil"});
-  command.flag("--sea", options.sea, "also write cells with only sea (a cell without a file is sea)");
-  command.option("--threads", options.threads, "number of threads, 0 for one per core; the files do not depend on it")
-      .range(0, 256);
-  add_json_flag(command, options.json);
+GeneratedCells generate_terrain_files(const std::string& folder, const TerrainGeneration& request,
+                                      const parallel::GoesOn& goes_on) {
+  radar::check_fields(request);
+  if (const int most = 90 - request.south; request.cells_lat > most)
+    radar::fail({"cells_lat", "at most " + std::to_string(most) + " cells from `south` to the north pole",
+                 std::to_string(request.cells_lat), "", ErrorCode::range, 1.0, static_cast<double>(most)});
+  return Generation(folder, request, goes_on).run();
 }
 
-GeneratedCells generate_terrain_files(const TerrainGenerateOptions& options, const parallel::GoesOn& goes_on) {
-  check_folder_name("--out", options.out);
-  if (options.south_deg + options.cells_latitude > 90)
-    throw CommandFailed{"--cells-lat: expected at most " + std::to_string(90 - options.south_deg) +
-                            " cells from --south to the north pole, found " + std::to_string(options.cells_latitude),
-                        2};
-  return Generation(options, goes_on).run();
-}
+namespace {
+
+struct TerrainGenerateOptions {
+  std::string out;
+  TerrainGeneration request;
+  bool json = false;
+};
+
+}  // namespace
 
 void add_terrain_generate(runtime::Command terrain) {
   const auto options = std::make_shared<TerrainGenerateOptions>();
   runtime::Command command = terrain.subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
-  add_terrain_generate_options(command, *options);
+  command.option("--out", options->out, "folder for the cells").value_name("DIR").required();
+  add_request_options(command, options->request);
+  add_json_flag(command, options->json);
   command.callback([options] {
-    const GeneratedCells cells = generate_terrain_files(*options);
+    check_folder_name("--out", options->out);
+    const GeneratedCells cells = generate_terrain_files(options->out, options->request);
     if (options->json)
       return print_json({{"folder", options->out},
                          {"land_cells", cells.land},
                          {"sea_cells", cells.sea},
-                         {"files", options->sea ? cells.land + cells.sea : cells.land}});
+                         {"files", options->request.sea ? cells.land + cells.sea : cells.land}});
     std::printf("%s with land in %s; %s with only sea, %s\n", text::counted(cells.land, "cell").c_str(),
                 options->out.c_str(), text::counted(cells.sea, "cell").c_str(),
-                options->sea ? "with files, too" : "without files");
+                options->request.sea ? "with files, too" : "without files");
   });
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <utility>
 
 #include "config/schema/load.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/text/plain_text.hpp"
+#include "radar/failure.hpp"
 
 namespace yars::tools::trade {
 
@@ -38,12 +40,12 @@ std::vector<std::string_view> knobs_of(Subject subject) {
 // The base preset with one slot changed.
 Expected<Fidelity> with_slot(const Fidelity& base, std::string_view slot, std::string_view value) {
   const auto is_plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.'; };
-  const std::string subject = "--knob " + std::string(slot);
-  const std::string kind = config::value_kind(*config::find_slot(*config::find_form("Fidelity").schema, slot).schema);
-  if (value.empty() || !std::ranges::all_of(value, is_plain)) return usage_failure(subject, kind, value);
+  const std::string kind = config::value_kind(*config::find_slot(*config::find_form("Fidelity").schema, slot).schema) +
+                           " for " + std::string(slot);
+  if (value.empty() || !std::ranges::all_of(value, is_plain)) return usage_failure("knob", kind, value);
   auto loaded = config::load_configuration_text(
-      "( Fidelity :preset " + base.name + " :" + std::string(slot) + ' ' + std::string(value) + " )", subject);
-  if (!loaded || !loaded->warnings.empty()) return usage_failure(subject, kind, value);
+      "( Fidelity :preset " + base.name + " :" + std::string(slot) + ' ' + std::string(value) + " )", "knob");
+  if (!loaded || !loaded->warnings.empty()) return usage_failure("knob", kind, value);
   return std::move(loaded->radar.fidelity);
 }
 
@@ -64,7 +66,7 @@ Expected<std::vector<Candidate>> preset_candidates(std::string_view list) {
   found.reserve(names.size());
   for (const std::string_view name : names) {
     const auto fidelity = radar::fidelity_preset(name);
-    if (!fidelity) return usage_failure("--presets", joined(radar::fidelity_names()) + ", all or none", name);
+    if (!fidelity) return usage_failure("presets", joined(radar::fidelity_names()) + ", all or none", name);
     found.push_back({std::string(name), "preset", *fidelity});
   }
   return found;
@@ -72,10 +74,10 @@ Expected<std::vector<Candidate>> preset_candidates(std::string_view list) {
 
 Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const Fidelity& base, Subject subject) {
   const std::size_t equals = sweep.find('=');
-  if (equals == std::string_view::npos) return usage_failure("--knob", "KNOB=VALUE,VALUE,...", sweep);
+  if (equals == std::string_view::npos) return usage_failure("knob", "KNOB=VALUE,VALUE,...", sweep);
   const std::string_view name = sweep.substr(0, equals);
   const std::vector<std::string_view> known = knobs_of(subject);
-  if (std::ranges::find(known, name) == known.end()) return usage_failure("--knob", "one of " + joined(known), name);
+  if (std::ranges::find(known, name) == known.end()) return usage_failure("knob", "one of " + joined(known), name);
   std::vector<Candidate> found;
   for (const std::string_view value : text::fields_of(sweep.substr(equals + 1), ',')) {
     auto fidelity = with_slot(base, name, value);
@@ -85,6 +87,22 @@ Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const F
     found.push_back(std::move(candidate));
   }
   return found;
+}
+
+std::vector<Candidate> candidates_of(const std::vector<std::string>& presets, const std::vector<std::string>& knobs,
+                                     const std::string& base, Subject subject) {
+  std::vector<Candidate> candidates;
+  const auto add = [&candidates](Expected<std::vector<Candidate>> more) {
+    if (!more) radar::fail(more.error());
+    std::ranges::move(*more, std::back_inserter(candidates));
+  };
+  for (const std::string& list : presets) add(preset_candidates(list));
+  if (presets.empty()) add(preset_candidates("all"));
+  const auto changed = radar::fidelity_preset(base);
+  if (!changed) radar::fail(usage_failure("base", "one of " + joined(radar::fidelity_names()), base).value());
+  for (const std::string& sweep : knobs) add(knob_candidates(sweep, *changed, subject));
+  if (candidates.empty()) radar::fail(error::usage_error("presets, knob", "a preset or a knob to compare", "none"));
+  return candidates;
 }
 
 radar::Fidelity without_noise(radar::Fidelity fidelity) {

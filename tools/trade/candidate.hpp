@@ -1,5 +1,5 @@
 // Candidates of `yars trade`: the fidelities to compare.
-// Errors: an unknown name, or a value out of range, is an Error of bad usage that names the option.
+// Errors: an unknown name, or a value out of range, is an Error of bad usage that names the field of the request.
 #pragma once
 
 #include <cstdint>
@@ -34,5 +34,10 @@ enum class Subject : std::uint8_t { scan, map };
 // Candidates of a knob's values such as "samples=120,240". Errors: an unknown knob, a value out of the knob's range.
 error::Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const radar::Fidelity& base,
                                                         Subject subject);
+
+// Candidates of lists of presets (none: all) and of knobs, of which each changes the preset `base`. Throws
+// radar::Failure for those that are not valid, or if there is no candidate.
+std::vector<Candidate> candidates_of(const std::vector<std::string>& presets, const std::vector<std::string>& knobs,
+                                     const std::string& base, Subject subject);
 
 }  // namespace yars::tools::trade

@@ -14,10 +14,10 @@ namespace yars::tools::trade {
 
 namespace {
 
-// Parses a comma-separated list with one number for each field. Errors are of bad usage and name `option`.
-error::Expected<std::vector<double>> numbers_of(std::string_view list, const char* option,
+// Parses a comma-separated list with one number for each field. Errors are of bad usage and name `subject`.
+error::Expected<std::vector<double>> numbers_of(std::string_view list, const char* subject,
                                                 const std::vector<file::NumberField>& fields) {
-  auto numbers = file::parse_numbers(option, text::fields_of(list, ','), fields, ",");
+  auto numbers = file::parse_numbers(subject, text::fields_of(list, ','), fields, ",");
   if (!numbers) return tl::unexpected(error::usage_error(numbers.error()));
   return numbers;
 }
@@ -38,7 +38,7 @@ std::string short_number(double value) {
 error::Expected<Scene> scene_of(std::string_view text) {
   using Of = values::ScanRequest;
   const auto values =
-      numbers_of(text, "--scene",
+      numbers_of(text, "scene",
                  {named("LAT", Of::latitude), named("LON", Of::longitude), named("ALT_FT", Of::altitude),
                   named("HDG", Of::heading), named("RANGE_NM", Of::range)});
   if (!values) return tl::unexpected(values.error());
@@ -75,14 +75,14 @@ double distance_nm(const MapView& view) {
 
 error::Expected<MapView> map_view_of(std::string_view text) {
   using Of = values::PatchRequest;
-  const auto values = numbers_of(text, "--view",
+  const auto values = numbers_of(text, "view",
                                  {named("LAT", Of::latitude), named("LON", Of::longitude),
                                   named("ALT_FT", Of::altitude), named("TARGET_LAT", Of::target_latitude),
                                   named("TARGET_LON", Of::target_longitude), named("WINDOW_NM", Of::window)});
   if (!values) return tl::unexpected(values.error());
   const MapView view{{(*values)[0], (*values)[1]}, (*values)[2], {(*values)[3], (*values)[4]}, (*values)[5]};
   if (distance_nm(view) <= view.window_nm)
-    return tl::unexpected<error::Error>(error::Error{"--view", "a target farther away than the window is wide",
+    return tl::unexpected<error::Error>(error::Error{"view", "a target farther away than the window is wide",
                                                      short_number(distance_nm(view)) + " NM", "",
                                                      error::ErrorCode::argument});
   return view;

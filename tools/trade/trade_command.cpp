@@ -15,14 +15,15 @@
 #include "lib/file/output_file.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
-#include "lib/values/fields.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "radar/limits.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
+#include "tools/trade/candidate.hpp"
 #include "tools/trade/scenes.hpp"
 
 namespace yars::tools {
@@ -55,21 +56,10 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::Plot
 }  // namespace
 
 void add_trade_options(runtime::Command command, TradeOptions& options) {
-  command.option("--presets", options.presets, "preset names separated by commas, or all, or none").value_name("NAMES");
-  command.option("--knob", options.knobs, "KNOB=VALUE,VALUE,...: values of one setting of --base; repeatable")
-      .value_name("VALUES")
-      .repeatable()
-      .otherwise("none");
-  add_preset_option(command, "--base", options.base, "preset in which --knob changes one setting");
+  command.find("--presets").value_name("NAMES");
+  command.find("--knob").value_name("VALUES");
+  command.find("--base").one_of({radar::fidelity_names().begin(), radar::fidelity_names().end()});
   add_terrain_option(command, options.configuration.terrain).otherwise("the configuration's, else built-in hills");
-  command
-      .option("--ruler", options.ruler,
-              "reference: this preset; same: the reference algorithm with the other settings of each candidate")
-      .one_of({"reference", "same"});
-  command
-      .option("--repeat", options.repeat,
-              "number of timed runs with warm caches; the result is their median. The reference algorithm runs once")
-      .range(1, 1000);
   command.option("--csv", options.csv, "CSV file with one row per candidate and scene")
       .value_name("FILE")
       .otherwise("none");
@@ -84,37 +74,23 @@ void check_trade_output(const TradeOptions& options) {
   check_file_name("--csv", options.csv, {".csv"});
 }
 
-std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject) {
-  auto candidates = trade::preset_candidates(options.presets);
-  if (!candidates) throw_failure(candidates.error());
-  for (const std::string& sweep : options.knobs) {
-    auto more = trade::knob_candidates(sweep, *radar::fidelity_preset(options.base), subject);
-    if (!more) throw_failure(more.error());
-    std::move(more->begin(), more->end(), std::back_inserter(*candidates));
-  }
-  if (candidates->empty()) throw_failure(error::usage_error("yars trade", "a preset or a knob to compare", "none"));
-  return std::move(*candidates);
-}
-
 std::string json_text(const TradeResult& result) {
   nlohmann::ordered_json all = json_of(result.table, result.axes);
   all["left_out"] = result.left_out;
   return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-void write_trade_files(const TradeOptions& options, const TradeResult& result) {
-  if (!options.csv.empty()) {
-    if (auto written = file::write_file(options.csv, trade::csv_text(result.table)); !written)
-      throw_failure(written.error());
+void write_trade_files(const std::string& csv, const std::string& out, const TradeResult& result) {
+  if (!csv.empty()) {
+    if (auto written = file::write_file(csv, trade::csv_text(result.table)); !written) throw_failure(written.error());
   }
-  if (!options.out.empty()) {
-    if (auto written = file::write_file(options.out, json_text(result) + "\n"); !written)
-      throw_failure(written.error());
+  if (!out.empty()) {
+    if (auto written = file::write_file(out, json_text(result) + "\n"); !written) throw_failure(written.error());
   }
 }
 
 void write_trade(const TradeOptions& options, const TradeResult& result) {
-  write_trade_files(options, result);
+  write_trade_files(options.csv, options.out, result);
   std::printf("%s\n", options.json ? json_text(result).c_str() : trade::table_text(result.table).c_str());
   std::fflush(stdout);
   fail_if_left_out(result.left_out);
@@ -190,44 +166,44 @@ trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRe
 
 // Fidelity of the ruler (the scan with which candidates are compared). With --ruler same, the ruler has the candidate's
 // settings and the reference algorithm. Then only the error of the algorithm is measured.
-radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity& candidate) {
+radar::Fidelity ruler_of(const ScanTradeRequest& trade, const radar::Fidelity& candidate) {
   radar::Fidelity ruler = *radar::fidelity_preset("reference");
-  if (options.ruler == "same") {
+  if (trade.ruler == TradeRuler::same) {
     ruler = candidate;
     ruler.algorithm = radar::Algorithm::reference;
     return ruler;
   }
-  ruler.samples = options.ruler_samples;
+  ruler.samples = trade.ruler_samples;
   return ruler;
 }
 
 // The candidate is its own ruler. Candidates of --knob have other names than presets.
-bool is_ruler(const ScanTradeOptions& options, const radar::Fidelity& candidate) {
-  if (options.ruler == "same") return candidate.algorithm == radar::Algorithm::reference;
-  return candidate.name == "reference" && candidate.samples == options.ruler_samples;
+bool is_ruler(const ScanTradeRequest& trade, const radar::Fidelity& candidate) {
+  if (trade.ruler == TradeRuler::same) return candidate.algorithm == radar::Algorithm::reference;
+  return candidate.name == "reference" && candidate.samples == trade.ruler_samples;
 }
 
 // Measures the candidates for one scene. With --ruler reference, all candidates are compared with the same scan.
 class SceneTrade {
  public:
-  SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene,
+  SceneTrade(const ScanTradeRequest& trade, const radar::RadarConfiguration& configuration, const trade::Scene& scene,
              const Warn& warn, LeftOut& left_out, const parallel::GoesOn& goes_on)
-      : options_(options),
+      : trade_(trade),
         configuration_(configuration),
         goes_on_(goes_on),
-        request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg), configuration.antenna)),
+        request_(trade::request_of(scene, geo::Angle::degrees(trade.width_deg), configuration.antenna)),
         terrain_(configuration_.terrain, request_, warn, left_out) {
     // Jammers, rain and ships stay as configured in all scans. Jammers affect only the video; rain and ships cast no
     // shadow.
-    if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);
+    if (trade_.ruler == TradeRuler::reference) shared_ = measured_ruler(configuration_.fidelity);
   }
 
   trade::Values values(const radar::Fidelity& fidelity) {
     const radar::RadarConfiguration candidate = with(fidelity);
     const TerrainView& terrain = terrain_.at(model::kernel::scan_detail(fidelity, request_.range));
-    const trade::Cost cost = cost_of(candidate, request_, terrain, options_.repeat, goes_on_);
-    const trade::Ruler& ruler = options_.ruler == "reference" ? shared_ : (own_ = measured_ruler(fidelity));
-    if (is_ruler(options_, fidelity))  // it is not computed again
+    const trade::Cost cost = cost_of(candidate, request_, terrain, trade_.repeat, goes_on_);
+    const trade::Ruler& ruler = trade_.ruler == TradeRuler::reference ? shared_ : (own_ = measured_ruler(fidelity));
+    if (is_ruler(trade_, fidelity))  // it is not computed again
       return trade::values_of(cost, trade::errors_against(ruler, ruler.observation));
     const trade::ScanObservation found = trade::observe(candidate, request_, terrain, goes_on_);
     return trade::values_of(cost, trade::errors_against(ruler, found));
@@ -240,12 +216,12 @@ class SceneTrade {
     return configuration;
   }
   trade::Ruler measured_ruler(const radar::Fidelity& candidate) {
-    const radar::Fidelity ruler = ruler_of(options_, candidate);
+    const radar::Fidelity ruler = ruler_of(trade_, candidate);
     return trade::make_ruler(with(ruler), request_, terrain_.at(model::kernel::scan_detail(ruler, request_.range)),
                              goes_on_);
   }
 
-  const ScanTradeOptions& options_;
+  const ScanTradeRequest& trade_;
   const radar::RadarConfiguration& configuration_;
   const parallel::GoesOn& goes_on_;
   ScanRequest request_;
@@ -253,9 +229,9 @@ class SceneTrade {
   trade::Ruler shared_, own_;  // of all candidates, and of the last one
 };
 
-std::vector<trade::Scene> scenes_of(const ScanTradeOptions& options, const std::string& directory) {
+std::vector<trade::Scene> scenes_of(const std::vector<std::string>& texts, const std::string& directory) {
   std::vector<trade::Scene> scenes;
-  for (const std::string& text : options.scenes) {
+  for (const std::string& text : texts) {
     const auto scene = trade::scene_of(text);
     if (!scene) throw_failure(scene.error());
     scenes.push_back(*scene);
@@ -272,19 +248,20 @@ std::vector<trade::Scene> scenes_of(const ScanTradeOptions& options, const std::
 
 }  // namespace
 
-TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration,
+TradeResult measure_trade(const ScanTradeRequest& request, const radar::RadarConfiguration& configuration,
                           const Warn& warn, const parallel::GoesOn& goes_on) {
+  radar::check_fields(request);
   trade::TradeTable table;
   table.columns = trade::kScanColumns;
   table.scene_fields = trade::kScanFields;
-  table.candidates = candidates_of(options, trade::Subject::scan);
+  table.candidates = trade::candidates_of(request.presets, request.knob, request.base, trade::Subject::scan);
   table.values.resize(table.candidates.size());
-  const std::vector<trade::Scene> scenes = scenes_of(options, configuration.terrain.directory);
+  const std::vector<trade::Scene> scenes = scenes_of(request.scene, configuration.terrain.directory);
   Progress progress(table.candidates.size() * scenes.size());
   LeftOut left_out;
   for (const trade::Scene& scene : scenes) {
     table.scenes.push_back(trade::row_of(scene));
-    SceneTrade scene_trade(options, configuration, scene, warn, left_out, goes_on);
+    SceneTrade scene_trade(request, configuration, scene, warn, left_out, goes_on);
     for (std::size_t i = 0; i < table.candidates.size(); ++i) {
       table.values[i].push_back(scene_trade.values(table.candidates[i].fidelity));
       progress.done(table.candidates[i].name + ", " + trade::scene_name(scene));
@@ -297,28 +274,22 @@ TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarCon
           left_out.sentences()};
 }
 
-void add_scan_trade_options(runtime::Command command, ScanTradeOptions& options) {
-  add_trade_options(command, options);
-  command.option("--scene", options.scenes, "place and range of a scan: LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable")
-      .value_name("SCENE")
-      .repeatable()
-      .otherwise("three ranges in the middle of the terrain");
-  add_value(command, "--scan-width", values::ScanRequest::width, options.width_deg);
-  command.option("--ruler-samples", options.ruler_samples, "samples per sweep of --ruler reference")
-      .range(1, radar::kMaxSamples);
-}
-
 void add_trade_command(runtime::Command app, const CommonOptions& common) {
+  struct ScanTradeOptions : TradeOptions {
+    ScanTradeRequest request;
+  };
   auto options = std::make_shared<ScanTradeOptions>();
   runtime::Command command =
       app.subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patch maps");
-  add_scan_trade_options(command, *options);
+  add_request_options(command, options->request);
+  command.find("--scene").value_name("SCENE");
+  add_trade_options(command, *options);
   add_trade_maps(command, common);
   command.callback([command, options, &common] {
     if (command.has_subcommand()) return;
     check_trade_output(*options);
     const radar::RadarConfiguration configuration = read_configuration(common.config, options->configuration);
-    write_trade(*options, measure_trade(*options, configuration, warn_as("yars trade")));
+    write_trade(*options, measure_trade(options->request, configuration, warn_as("yars trade")));
   });
 }
 

@@ -9,10 +9,13 @@
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
+#include "model/scene/index/scene_index.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "radar/limits.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/output.hpp"
+#include "tools/trade/candidate.hpp"
 #include "tools/trade/map_errors.hpp"
 #include "tools/trade/scenes.hpp"
 #include "tools/trade/trade_command.hpp"
@@ -71,16 +74,16 @@ class ViewEnvironment {
 // Measures the candidates for one map view. With --ruler reference, all candidates are compared with the same map.
 class ViewTrade {
  public:
-  ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view,
+  ViewTrade(const MapTradeRequest& trade, const radar::RadarConfiguration& configuration, const trade::MapView& view,
             const Warn& warn, LeftOut& left_out, const parallel::GoesOn& goes_on)
-      : options_(options),
+      : trade_(trade),
         configuration_(configuration),
         goes_on_(goes_on),
         order_(trade::order_of(view)),
         environment_(configuration_, warn, left_out) {
-    if (options_.ruler == "same") return;
+    if (trade_.ruler == TradeRuler::same) return;
     radar::Fidelity reference = *radar::fidelity_preset("reference");
-    reference.map_size = options_.ruler_size;
+    reference.map_size = trade_.ruler_size;
     shared_ = observe(reference);
   }
 
@@ -89,7 +92,7 @@ class ViewTrade {
     const hrm::PatchEnvironment environment = environment_of(fidelity);
     const auto bytes = static_cast<double>(environment.window->resident_bytes() + environment.path->resident_bytes());
     const trade::MapCost cost{time_of(fidelity, environment, found), bytes};
-    if (options_.ruler == "reference") return trade::values_of(cost, trade::errors_against(shared_, found));
+    if (trade_.ruler == TradeRuler::reference) return trade::values_of(cost, trade::errors_against(shared_, found));
     radar::Fidelity same = fidelity;
     same.algorithm = radar::Algorithm::reference;
     return trade::values_of(cost, trade::errors_against(observe(same), found));
@@ -115,13 +118,13 @@ class ViewTrade {
     hrm::PatchFormation patch_formation(with(fidelity), {});
     trade::time_map(patch_formation, order_, environment, thread_ms, goes_on_);
     std::vector<double> took_ms;
-    took_ms.reserve(static_cast<std::size_t>(options_.repeat));
-    for (int run = 0; run < options_.repeat; ++run)
+    took_ms.reserve(static_cast<std::size_t>(trade_.repeat));
+    for (int run = 0; run < trade_.repeat; ++run)
       took_ms.push_back(trade::time_map(patch_formation, order_, environment, thread_ms, goes_on_));
     return median(std::move(took_ms));
   }
 
-  const MapTradeOptions& options_;
+  const MapTradeRequest& trade_;
   const radar::RadarConfiguration& configuration_;
   const parallel::GoesOn& goes_on_;
   hrm::PatchOrder order_;
@@ -142,9 +145,9 @@ std::vector<trade::MapView> default_views(const std::string& directory) {
   return views;
 }
 
-std::vector<trade::MapView> views_of(const MapTradeOptions& options, const std::string& directory) {
+std::vector<trade::MapView> views_of(const std::vector<std::string>& texts, const std::string& directory) {
   std::vector<trade::MapView> views;
-  for (const std::string& text : options.views) {
+  for (const std::string& text : texts) {
     const auto view = trade::map_view_of(text);
     if (!view) throw_failure(view.error());
     views.push_back(*view);
@@ -154,19 +157,22 @@ std::vector<trade::MapView> views_of(const MapTradeOptions& options, const std::
 
 }  // namespace
 
-TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration,
-                          const Warn& warn, const parallel::GoesOn& goes_on) {
+TradeResult measure_trade(const MapTradeRequest& request, radar::RadarConfiguration configuration, const Warn& warn,
+                          const parallel::GoesOn& goes_on) {
+  radar::check_fields(request);
+  if (auto added = model::scene::add_scenes(configuration.world.scenes, request.scene, request.scene_without); !added)
+    throw_failure(error::usage_error(added.error()));
   trade::TradeTable table;
   table.columns = trade::kMapColumns;
   table.scene_fields = trade::kMapFields;
-  table.candidates = candidates_of(options, trade::Subject::map);
+  table.candidates = trade::candidates_of(request.presets, request.knob, request.base, trade::Subject::map);
   table.values.resize(table.candidates.size());
-  const std::vector<trade::MapView> views = views_of(options, configuration.terrain.directory);
+  const std::vector<trade::MapView> views = views_of(request.view, configuration.terrain.directory);
   Progress progress(table.candidates.size() * views.size());
   LeftOut left_out;
   for (const trade::MapView& view : views) {
     table.scenes.push_back(trade::row_of(view));
-    ViewTrade view_trade(options, configuration, view, warn, left_out, goes_on);
+    ViewTrade view_trade(request, configuration, view, warn, left_out, goes_on);
     for (std::size_t i = 0; i < table.candidates.size(); ++i) {
       table.values[i].push_back(view_trade.values(table.candidates[i].fidelity));
       progress.done(table.candidates[i].name + ", " + trade::map_view_name(view));
@@ -178,26 +184,21 @@ TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConf
           left_out.sentences()};
 }
 
-void add_map_trade_options(runtime::Command command, MapTradeOptions& options) {
-  add_trade_options(command, options);
-  add_scene_options(command, options.configuration);
-  command
-      .option("--view", options.views,
-              "place and window of a map: LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable")
-      .value_name("VIEW")
-      .repeatable()
-      .otherwise("three windows in the middle of the terrain");
-  command.option("--ruler-size", options.ruler_size, "[pixels] edge of the map of --ruler reference").range(16, 1024);
-}
-
 void add_trade_maps(runtime::Command trade, const CommonOptions& common) {
+  struct MapTradeOptions : TradeOptions {
+    MapTradeRequest request;
+  };
   auto options = std::make_shared<MapTradeOptions>();
   runtime::Command command = trade.subcommand("maps", "speed against accuracy of patch maps");
-  add_map_trade_options(command, *options);
+  add_request_options(command, options->request);
+  command.find("--scene").value_name("FILE");
+  command.find("--scene-without").value_name("NAME");
+  command.find("--view").value_name("VIEW");
+  add_trade_options(command, *options);
   command.callback([options, &common] {
     check_trade_output(*options);
     const radar::RadarConfiguration configuration = read_configuration(common.config, options->configuration);
-    write_trade(*options, measure_trade(*options, configuration, warn_as("yars trade maps")));
+    write_trade(*options, measure_trade(options->request, configuration, warn_as("yars trade maps")));
   });
 }
 

@@ -146,36 +146,14 @@ void MeshBuilder::bank(Vector3 from, Vector3 to, double foot_m, double top_m, do
   polygon({to - foot, to + foot, to + top + up, to - top + up});
 }
 
-namespace {
-
-struct Named {
-  std::string_view name;
-  GeneratedKind kind;
-  void (*generate)(SceneBuilder&);
-};
-
-constexpr std::array<Named, 4> kKinds{{{"airfield", GeneratedKind::airfield, generate_airfield},
-                                       {"harbour", GeneratedKind::harbour, generate_harbour},
-                                       {"bridge", GeneratedKind::bridge, generate_bridge},
-                                       {"town", GeneratedKind::town, generate_town}}};
-
-}  // namespace
-
-std::optional<GeneratedKind> generated_kind(std::string_view name) {
-  for (const Named& known : kKinds)
-    if (known.name == name) return known.kind;
-  return std::nullopt;
-}
-
 GeneratedScene generate_scene(const SceneRequest& request, const GenerationProgress& progress) {
   SceneBuilder builder(request, progress);
-  for (const Named& known : kKinds) {
-    if (known.kind != request.kind) continue;
-    known.generate(builder);
-    const geo::AzimuthalEquidistant plane(request.origin);
-    builder.out.set_corners(plane.geodetic_from_plane({-builder.half_side_m, -builder.half_side_m}),
-                            plane.geodetic_from_plane({builder.half_side_m, builder.half_side_m}));
-  }
+  // In the order of GeneratedKind.
+  constexpr std::array kGenerate{generate_airfield, generate_harbour, generate_bridge, generate_town};
+  kGenerate[static_cast<std::size_t>(request.kind)](builder);
+  const geo::AzimuthalEquidistant plane(request.origin);
+  builder.out.set_corners(plane.geodetic_from_plane({-builder.half_side_m, -builder.half_side_m}),
+                          plane.geodetic_from_plane({builder.half_side_m, builder.half_side_m}));
   return {builder.out.take(), builder.triangles()};
 }
 

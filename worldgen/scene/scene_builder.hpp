@@ -10,7 +10,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "lib/geo/quantity.hpp"
 #include "lib/random/counter_rng.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
+#include "yars/requests.hpp"
 
 namespace yars::worldgen {
 
@@ -63,9 +63,7 @@ class MeshBuilder {
 };
 
 // Kinds of scenes. No scene has faces of water, because water belongs to the terrain.
-enum class GeneratedKind : std::uint8_t { airfield, harbour, bridge, town };
-// Kind of scene by name ("airfield", "harbour", "bridge", "town"); nullopt for other names.
-std::optional<GeneratedKind> generated_kind(std::string_view name);
+using GeneratedKind = SceneKind;
 
 struct SceneRequest {
   GeneratedKind kind = GeneratedKind::airfield;
@@ -76,8 +74,6 @@ struct SceneRequest {
   // harbour and bridge are not turned.
   std::optional<double> heading_deg{};
 };
-
-inline constexpr std::uint64_t kMaxGenerated = 8'000'000;  // [triangles] limit of a request
 
 struct GeneratedScene {
   std::vector<std::byte> file;

@@ -18,6 +18,7 @@
 #include "model/terrain/formats/culture.hpp"
 #include "worldgen/terrain/landscape_tiles.hpp"
 #include "worldgen/terrain/relief.hpp"
+#include "yars/requests.hpp"
 
 namespace yars::worldgen {
 
@@ -83,9 +84,10 @@ class LandscapeRows {
 // Region that scripts/start generates. config/coast.guf, config/coast.scenes and config/routes/default.route name
 // positions in it.
 struct DefaultLandscape {
-  static constexpr int kSouth_deg = 36, kWest_deg = -124;
-  static constexpr int kCellsNorth = 4, kCellsEast = 4;
-  static constexpr std::uint64_t kSeed = 12;
+  static constexpr TerrainGeneration kRequest{};
+  static constexpr int kSouth_deg = kRequest.south, kWest_deg = kRequest.west;
+  static constexpr int kCellsNorth = kRequest.cells_lat, kCellsEast = kRequest.cells_lon;
+  static constexpr std::uint64_t kSeed = kRequest.seed;
 };
 
 struct MadeCell {

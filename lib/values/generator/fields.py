@@ -1,6 +1,7 @@
 """Writers of what people give, values of the world (@shown in records.idl) and requests (requests.idl): structs, tables
 and defaults in C++, forms of the pages in TypeScript, limits and keywords in Python."""
 import re
+import textwrap
 
 from . import comments, schema
 from .schema import Constant, Enumeration, Record
@@ -14,8 +15,9 @@ LISTS = "databuffer/messages/world_lists.hpp"
 
 def cpp_type(field):
     kind = field.type.name if isinstance(field.type, Enumeration) else {
-        "double": "double", "boolean": "bool", "int32": "int"}.get(field.type, f"std::{field.type}_t")
-    return f"std::optional<{kind}>" if field.optional else kind
+        "double": "double", schema.BOOLEAN: "bool", "int32": "int", schema.TEXT: "std::string",
+        schema.TEXTS: "std::vector<std::string>"}.get(field.type, f"std::{field.type}_t")
+    return f"std::optional<{kind}>" if field.optional and field.type != schema.TEXTS else kind
 
 
 def initial(field):
@@ -23,8 +25,10 @@ def initial(field):
         return ""
     if isinstance(field.type, Enumeration):
         return f" = {field.type.name}::{field.type.values[0][0]}"
+    if field.type == schema.TEXT:
+        return f' = "{field.default}"'
     if field.type == schema.BOOLEAN:
-        return " = false"
+        return " = true" if field.default else " = false"
     return f" = {field.default.expression}"
 
 
@@ -47,11 +51,10 @@ def described(chapters):
 
 
 def structs(chapter):
-    text = ("// What a program asks of a radar without a session (yars/radar.hpp). "
-            "Both limits of a field are valid values.\n"
+    text = ("// What a program asks for without a session (yars/radar.hpp). Both limits of a field are valid values.\n"
             + MADE.format("requests.idl") +
-            "// SPDX-License-Identifier: MIT\n#pragma once\n\n#include <cstdint>\n#include <optional>\n\n"
-            "namespace yars {\n")
+            "// SPDX-License-Identifier: MIT\n#pragma once\n\n#include <cstdint>\n#include <optional>\n"
+            "#include <string>\n#include <vector>\n\nnamespace yars {\n")
     for one in declarations(chapter, Enumeration):
         text += f"\nenum class {one.name} : std::uint{one.bits}_t {{ {', '.join(name for name, _ in one.values)} }};\n"
     for one in declarations(chapter, Record):
@@ -122,8 +125,8 @@ def placed(fields):
 def table(chapters):
     text = ("// Name, option, unit, limits, default and purpose of each value that people give.\n"
             + MADE.format("records.idl and requests.idl") +
-            "#pragma once\n\n#include <array>\n#include <limits>\n#include <string_view>\n#include <tuple>\n"
-            "#include <type_traits>\n\n"
+            "#pragma once\n\n#include <array>\n#include <limits>\n#include <span>\n#include <string_view>\n"
+            "#include <tuple>\n#include <type_traits>\n\n"
             f"#include \"{STRUCTS}\"\n\n"
             "namespace yars::values {\n\ninline constexpr double kAny = std::numeric_limits<double>::infinity();\n"
             "inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();\n\nstruct Field {\n"
@@ -162,7 +165,9 @@ def table(chapters):
              "  using Plain = std::remove_const_t<Entry>;\n  ")
     for name in requests:
         text += f"if constexpr (std::is_same_v<Plain, yars::{name}>) {{\n    {name}::visit(entry, each);\n  }} else "
-    return text + "{\n    Plain::Values::visit(entry, each);\n  }\n}\n\n}  // namespace yars::values\n"
+    text += "{\n    Plain::Values::visit(entry, each);\n  }\n}\n\n// Fields of all requests.\n"
+    return text + (f"inline constexpr std::array<std::span<const Field>, {len(requests)}> kRequests{{\n    " +
+                   ",\n    ".join(f"{name}::all" for name in requests) + "};\n\n}  // namespace yars::values\n")
 
 
 def defaults(chapters):
@@ -249,14 +254,17 @@ def lists_table(chapters):
 def python_type(field):
     if isinstance(field.type, Enumeration):
         return f"Literal[{', '.join(chr(34) + name + chr(34) for name, _ in field.type.values)}]"
-    kind = {"double": "float", "boolean": "bool"}.get(field.type, "int")
+    kind = {"double": "float", schema.BOOLEAN: "bool", schema.TEXT: "str", schema.TEXTS: "str | list[str]"}.get(
+        field.type, "int")
     return f"{kind} | None" if field.optional else kind
 
 
 def stub(field):
     code, comment = f"        {field.name}: {python_type(field)} = ...,", f"# {about(field)}"
-    fits = len(f"{code}  {comment}") <= comments.WIDTH
-    return f"{code}  {comment}\n" if fits else f"        {comment}\n{code}\n"
+    if len(f"{code}  {comment}") <= comments.WIDTH:
+        return f"{code}  {comment}\n"
+    return textwrap.fill(comment[2:], comments.WIDTH, initial_indent=" " * 8 + "# ",
+                         subsequent_indent=" " * 8 + "# ") + f"\n{code}\n"
 
 
 def stubs(chapter):

@@ -313,8 +313,13 @@ class Parser:
         name = self.next().text
         if name in TYPES or name == schema.BOOLEAN:
             return name
+        if name == "sequence":
+            for part in ("<", "string", ">"):
+                self.expect(part)
+            return schema.TEXTS
         if name == "string":
-            self.expect("<")
+            if not self.is_next("<"):
+                return schema.TEXT
             bound = self.expression()
             self.expect(">")
             return bound.value
@@ -407,6 +412,8 @@ class Parser:
         if self.is_next("-"):
             inner = self.factor()
             return schema.Limit(-inner.value, "-" + inner.expression)
+        if self.is_next("TRUE"):
+            return schema.Limit(True, "true")
         if self.token.kind == "number":
             text = self.next().text
             whole = re.fullmatch(r"\d+|0[xX].*", text)

@@ -12,7 +12,8 @@ import re
 INTEGERS = {f"{sign}int{bits}": (bits // 8, -(1 << bits - 1) if not sign else 0, (1 << bits - (not sign)) - 1)
             for sign in ("", "u") for bits in (8, 16, 32, 64)}
 REALS = {"double": 8, "float": 4}
-BOOLEAN = "boolean"  # of requests alone: a record has bits of flags
+# Of requests alone: a record has bits of flags, and texts of a length.
+BOOLEAN, TEXT, TEXTS = "boolean", "string", "sequence<string>"
 
 # Last word of a field's name -> unit of the field.
 SUFFIXES = {"deg": "deg", "m": "m", "m2": "m2", "mps": "m/s", "dps": "deg/s", "nm": "NM", "s": "s", "ns": "ns",
@@ -318,8 +319,9 @@ def check_record(record):
     if record.request:
         return check_request(record)
     for field in record.fields:
-        if field.type == BOOLEAN:
-            raise IdlError(field.where, f"a number, a text or a record for {field.name}", BOOLEAN, "use a bit mask")
+        if field.type in (BOOLEAN, TEXT, TEXTS):
+            raise IdlError(field.where, f"a number, a text or a record for {field.name}", field.type,
+                           "use a bit mask, or string<N>")
         check_count(record, field)
     return lay_out(record)
 
@@ -331,7 +333,7 @@ def check_request(request):
             raise IdlError(field.where, f"one option {field.option} in {request.name}", "two",
                            "give one another @option")
         if field.dimensions or isinstance(field.type, (int, Record, Bitmask)):
-            raise IdlError(field.where, f"a number, boolean or enumeration for {field.name}", "another type")
+            raise IdlError(field.where, f"a number, boolean or enumeration for {field.name}, or texts", "another type")
         if field.optional != bool(field.otherwise):
             raise IdlError(field.where, f"@optional with @otherwise at {field.name}", "one of them",
                            "say what holds without the field")

@@ -74,16 +74,24 @@ error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::stri
 
 }  // namespace
 
+error::Expected<ScenePosition> scene_position(std::span<const double> numbers) {
+  const auto is_within = [&](std::size_t at, double limit) {
+    return numbers.size() <= at || std::abs(numbers[at]) <= limit;
+  };
+  if (numbers.size() == 2 || numbers.size() == 3)
+    if (is_within(0, 90.0) && is_within(1, 360.0) && is_within(2, 360.0))
+      return ScenePosition{{numbers[0], geo::wrapped_degrees(numbers[1])},
+                           numbers.size() == 3 ? std::optional(numbers[2]) : std::nullopt};
+  std::string found;
+  for (const double number : numbers) found += (found.empty() ? "" : ",") + text::text_of_number(number);
+  return tl::unexpected(error::usage_error({}, "LATITUDE,LONGITUDE or LATITUDE,LONGITUDE,HEADING in degrees",
+                                           "'" + found + "'", "write it as 37.5,-122.3,45"));
+}
+
 error::Expected<ScenePosition> parse_scene_position(const std::string& text) {
-  const auto values = numbers(text);
-  const bool valid = values && (values->size() == 2 || values->size() == 3) && std::abs((*values)[0]) <= 90.0 &&
-                     std::abs((*values)[1]) <= 360.0 && (values->size() == 2 || std::abs((*values)[2]) <= 360.0);
-  if (!valid)
-    return error::fail({}, "LATITUDE,LONGITUDE or LATITUDE,LONGITUDE,HEADING in degrees", "'" + text + "'",
-                       "write it as 37.5,-122.3,45");
-  ScenePosition found{{(*values)[0], geo::wrapped_degrees((*values)[1])}, std::nullopt};
-  if (values->size() == 3) found.heading_deg = (*values)[2];
-  return found;
+  auto position = scene_position(numbers(text).value_or(std::vector<double>()));
+  if (!position) position.error().found = "'" + text + "'";
+  return position;
 }
 
 error::Expected<radar::Scene> parse_scene(const std::string& text) {

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,9 @@ struct ScenePosition {
   std::optional<double> heading_deg;  // true
 };
 
-// Parses `LAT,LON` or `LAT,LON,HDG` in degrees. The error has no subject.
+// Position of the numbers LAT, LON or LAT, LON, HDG in degrees, or of a text with them and commas between them. The
+// error has no subject, and is of bad usage.
+error::Expected<ScenePosition> scene_position(std::span<const double> numbers);
 error::Expected<ScenePosition> parse_scene_position(const std::string& text);
 
 // Parses a scene argument: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees; north and east are positive, HDG is

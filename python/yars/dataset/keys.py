@@ -40,6 +40,12 @@ _VALUES = {  # least, greatest, unit, default, purpose
     "PatchRequest.looks": (1, 16, "", None, "number of looks to average"),
     "PatchRequest.size": (16, 4096, "pixels", None, "per side; up to 1024 with the preset reference"),
     "PatchRequest.time": (0, 576460752, "s", "0", "sim time at the start, for moving targets"),
+    "TerrainGeneration.south": (-90, 89, "deg", "36", "south edge"),
+    "TerrainGeneration.west": (-180, 179, "deg", "-124", "west edge"),
+    "TerrainGeneration.cells_lat": (1, 180, "", "4", "cells northward"),
+    "TerrainGeneration.cells_lon": (1, 360, "", "4", "cells eastward"),
+    "TerrainGeneration.level": (0, 2, "", "1", "DTED level"),
+    "SceneGeneration.triangles": (1, 8000000, "", "20000", "approximate number; an instance counts at each use"),
 }
 # end: lib/values/generate.py
 
@@ -53,6 +59,12 @@ def _value(path, name, default=None, text=None, kind="number"):
     """A drawn key whose limits, unit, default and purpose are those of a value of the description."""
     least, most, unit, its_default, purpose = _VALUES[name]
     return _key(path, kind, (least, most), unit, True, default or its_default or "required", text or purpose)
+
+
+def _made(path, name, default="required", text=None):
+    """A whole number of made-up terrain or scenes, with limits and unit of the description."""
+    least, most, unit, _, purpose = _VALUES[name]
+    return _key(path, "whole", (least, most), unit, default=default, text=text or purpose)
 
 
 _ROWS = [
@@ -96,18 +108,18 @@ _ROWS = [
     _value("weather.rain.top_ft", "WorldRainCell.top"),
 
     _key("terrain.generate", "section", default="none", text="made-up terrain, written to DIR/terrain"),
-    _key("terrain.generate.south", "whole", (-90, 89), "deg", text="south edge"),
-    _key("terrain.generate.west", "whole", (-180, 179), "deg", text="west edge"),
-    _key("terrain.generate.cells_lat", "whole", (1, 180), "", default="1", text="cells northward"),
-    _key("terrain.generate.cells_lon", "whole", (1, 360), "", default="1", text="cells eastward"),
-    _key("terrain.generate.level", "whole", (0, 2), "", default="1", text="DTED level"),
+    _made("terrain.generate.south", "TerrainGeneration.south"),
+    _made("terrain.generate.west", "TerrainGeneration.west"),
+    _made("terrain.generate.cells_lat", "TerrainGeneration.cells_lat", "1"),
+    _made("terrain.generate.cells_lon", "TerrainGeneration.cells_lon", "1"),
+    _made("terrain.generate.level", "TerrainGeneration.level", "1"),
     _key("terrain.generate.seed", "whole", (0, 2**53), "", default="12", text="seed of the landscape"),
     _key("terrain.generate.edge", "text", default="coast", text="what is at the area's edge", values=("coast", "cut")),
 
     _key("scenes.file", "path", default="none", text="OpenFlight file; this or `generate`"),
     _key("scenes.generate", "text", default="none", text="kind of a made-up scene, written to DIR/scenes",
          values=("airfield", "harbour", "bridge", "town")),
-    _key("scenes.triangles", "whole", (1, 8000000), "", default="20000", text="of a made-up scene: approximate number"),
+    _made("scenes.triangles", "SceneGeneration.triangles", "20000", "of a made-up scene: approximate number"),
     _key("scenes.seed", "whole", (0, 2**53), "", default="1", text="of a made-up scene"),
     _key("scenes.at", "place", unit="deg", default="the file's own",
          text="[latitude, longitude] or [latitude, longitude, heading]"),

@@ -18,7 +18,7 @@ sys.path.insert(0, str(VALUES))
 from generator import fields, idl  # noqa: E402
 
 LINES = 5  # of one statement
-COMMON = {0, 1, 3, 8, 90, 180, 360}
+COMMON = {0, 1, 2, 3, 8, 89, 90, 179, 180, 360}
 SOURCES = (".cpp", ".hpp", ".h", ".c", ".py", ".ts", ".html", ".md", ".idl", ".in")
 # Tests state what they expect, measurements are cases, the specification is where limits come from, decisions compare.
 # docs/configuration/ is what the forms print (tests/config/schema).

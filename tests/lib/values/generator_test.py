@@ -228,6 +228,14 @@ REQUESTS = """module yars {
     @optional @otherwise("the configuration's") @range(min=1, max=16) int32 looks;  // to average
     Band band;  // of the radar
   };
+
+  // Another look.
+  @request
+  struct Texts {
+    @default(TRUE) boolean noise;  // of the receiver
+    @default("fine") string preset;  // of the fidelity
+    @optional @otherwise("none") sequence<string> scenes;  // on the ground
+  };
 };
 """
 
@@ -240,6 +248,9 @@ class Requests(unittest.TestCase):
         self.assertIn("bool force = false;", structs)
         self.assertIn("std::optional<int> looks;    // 1 to 16: to average; left out: the configuration's", structs)
         self.assertIn("Band band = Band::A;", structs)
+        self.assertIn("bool noise = true;  ", structs)
+        self.assertIn('std::string preset = "fine";  ', structs)
+        self.assertIn("std::vector<std::string> scenes;  // on the ground; left out: none", structs)
         self.assertNotIn("struct Pose", structs)
         self.assertIn('Field latitude{"latitude_deg", "latitude", "lat", "deg", -90, 90,\n'
                       '      "of the aircraft", "", {}}', table)
@@ -402,9 +413,9 @@ class TheFilesOfTheTree(unittest.TestCase):
         (self.root / generate.COMMANDS).write_text(f"<!-- {generate.BEGIN[2:-1]} -->\n<!-- {generate.END[2:-1]} -->\n")
         (self.root / generate.KEYS).write_text(f"{generate.BEGIN}{generate.END}# {', '.join(self.names)}\n")
         (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
-        (self.root / generate.STUB).write_text(f"# {', '.join(self.names)}\n" + "".join(
-            f"        # begin: lib/values/generate.py, {name}\n        # end: {name}\n"
-            for name in ("ScanRequest", "PatchRequest")))
+        for file, names in generate.STUBS.items():
+            (self.root / file).write_text(f"# {', '.join(self.names)}\n" + "".join(
+                f"        # begin: lib/values/generate.py, {name}\n        # end: {name}\n" for name in names))
         self.program = self.root / "yars"
         self.tell(layout_of(self.chapters))
         self.tree, generate.ROOT = generate.ROOT, self.root
@@ -425,7 +436,7 @@ class TheFilesOfTheTree(unittest.TestCase):
 
     def test_are_written_and_then_found_fresh(self):
         self.refuses(generate.StaleError,
-                     "python/yars/results.pyi, python/yars/dataset/keys.py, docs/commands.md, "
+                     "python/yars/results.pyi, python/yars/places.pyi, python/yars/dataset/keys.py, docs/commands.md, "
                      "station/web/src/values.ts, docs/shared_memory.md: expected what the IDL says, found otherwise; "
                      "run lib/values/generate.py --write")
         self.run_with("--write")

@@ -134,7 +134,7 @@ TEST(Trade, AKnobHasTheLimitsOfItsSlot) {
   EXPECT_EQ((*knob_candidates("geodesicKnots=1", base, Subject::map))[0].fidelity.geodesic_knots, 1);
   EXPECT_EQ((*knob_candidates("mapSize=4096", base, Subject::map))[0].fidelity.map_size, 4096);
   EXPECT_EQ(knob_candidates("samples=4097", base, Subject::scan).error().message(),
-            "--knob samples: expected a whole number in [1, 4096], found '4097'");
+            "knob: expected a whole number in [1, 4096] for samples, found '4097'");
 }
 
 TEST(Trade, PresetsAllNamesEveryPreset) {
