@@ -31,18 +31,22 @@ class GufScanner {
 
 }  // namespace
 
-error::Expected<ParsedText> parse_text(std::string_view text, const std::string& name) {
-  if (const auto problem = oversize(text, name)) return tl::unexpected(*problem);
+ParsedText parse(std::string_view text, const std::string& name) {
+  if (const auto problem = oversize(text, name)) throw ParseError{*problem};
   ScanState state;
   state.next.file = std::make_shared<const std::string>(name);
+  const GufScanner scanner(without_byte_order_mark(text), state);
+  GufParser parser(scanner.handle(), state);
+  parser.parse();
+  return std::move(state.result);
+}
+
+error::Expected<ParsedText> parse_text(std::string_view text, const std::string& name) {
   try {
-    const GufScanner scanner(without_byte_order_mark(text), state);
-    GufParser parser(scanner.handle(), state);
-    parser.parse();
+    return parse(text, name);
   } catch (const ParseError& parse_error) {
     return tl::unexpected(parse_error.error);
   }
-  return std::move(state.result);
 }
 
 namespace {

@@ -33,6 +33,7 @@ struct ParsedText {
 
 // The tree of a GUF text. Includes remain forms named `include`; load.cpp replaces them.
 error::Expected<ParsedText> parse_text(std::string_view text, const std::string& name);
+ParsedText parse(std::string_view text, const std::string& name);  // throws ParseError
 
 // State that scanner and parser of one text share.
 struct ScanState {

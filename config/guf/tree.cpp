@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "lib/text/plain_text.hpp"
 
@@ -25,6 +26,30 @@ struct Describer {
 std::string text_of(const Location& where) {
   const std::string file = where.file ? *where.file : std::string("text");
   return file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
+}
+
+std::string fault_text(const Fault& fault) {
+  if (fault.kind == Fault::Kind::unknown_form)
+    return "the form " + fault.form + " is unknown and ignored" +
+           (fault.nearest.empty() ? "" : "; nearest name: " + fault.nearest);
+  std::string advice;
+  if (!fault.owner.empty()) {
+    advice = "; the form " + fault.owner + " has it";
+  } else if (!fault.nearest.empty()) {
+    advice = "; nearest name: :" + fault.nearest;
+  }
+  return "the form " + fault.form + " has no slot :" + fault.slot + "; the slot is ignored" + advice;
+}
+
+void reject(Fault fault) {
+  error::Error error = fault.error;
+  error.subject = text_of(fault.where);
+  if (!fault.slot.empty()) error.expected += " for :" + fault.slot;
+  throw ParseError{std::move(error), std::move(fault)};
+}
+
+void reject(const Location& where, std::string expected, std::string found, std::string action) {
+  reject({.where = where, .error = {{}, std::move(expected), std::move(found), std::move(action)}});
 }
 
 std::string description(const Value& value) {

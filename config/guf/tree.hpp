@@ -4,6 +4,7 @@
 // Errors: reject() throws ParseError inside config/. Public functions of config/ catch it and return Expected<T>.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <variant>
@@ -64,16 +65,30 @@ std::string number_text(double value);
 // The text as a GUF string, with quotes and escapes.
 std::string quoted_text(const std::string& text);
 
+// What is wrong at a place of a text. fault_text() and reject() write all texts of faults.
+struct Fault {
+  enum class Kind : std::uint8_t { value, unknown_form, unknown_slot };
+  Kind kind = Kind::value;
+  Location where{};
+  std::string form{};     // the unknown form, or the form that has no such slot
+  std::string slot{};     // the unknown slot, or the slot of a value; empty: of none
+  std::string nearest{};  // valid name that an unknown one most likely means; empty: none is near
+  std::string owner{};    // form that has a slot of this name; empty: none has
+  error::Error error{};   // of a value: expected, without the slot's name, found, action, limits
+};
+
+// The fault of an unknown form or slot as a warning, without its location.
+std::string fault_text(const Fault& fault);
+
 // Exception for an invalid text. Public functions of config/ catch it and return its error.
 struct ParseError {
   error::Error error;
+  Fault fault{};
 };
 
-// Throws a ParseError whose subject is the location `where`.
-[[noreturn]] inline void reject(const Location& where, std::string expected, std::string found,
-                                std::string action = {}) {
-  throw ParseError{error::fail(text_of(where), std::move(expected), std::move(found), std::move(action)).value()};
-}
+// Throws a ParseError for the fault of a value. Its subject is the location.
+[[noreturn]] void reject(Fault fault);
+[[noreturn]] void reject(const Location& where, std::string expected, std::string found, std::string action = {});
 
 // The tree as GUF text in the modern spelling. It parses to an equal tree. A slot takes one line if it has at most 100
 // bytes, indentation not counted. A longer form or list takes several lines, indented by two spaces per open bracket.

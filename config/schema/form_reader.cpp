@@ -71,7 +71,7 @@ void reject_repetition(const std::vector<Matched>& matched, const SlotSchema& sc
 }
 
 [[noreturn]] void throw_violation(const ConstraintViolation& violation, const Location& where) {
-  reject(where, violation.expected + " for :" + std::string(violation.slot), violation.found);
+  reject({.where = where, .slot = std::string(violation.slot), .error = {{}, violation.expected, violation.found, {}}});
 }
 
 bool accepts(const FormSlot& kind, const FormSchema& schema) {
@@ -99,19 +99,10 @@ void FormReader::read_all(const std::vector<Slot>& arguments) {
   for (const auto& [where, text] : paired_lists_.warnings(builder_)) warn(where, text);
 }
 
-namespace {
-
-std::string unknown_form(const std::string& name) {
-  const std::string nearest = nearest_form(name);
-  return "the form " + name + " is unknown and ignored" + (nearest.empty() ? "" : "; nearest name: " + nearest);
-}
-
-}  // namespace
-
 void FormReader::read_top_level(const Form& form, const Location& where) {
   const KnownForm known = forms_.find(form.name);
   if (known.schema == nullptr) {
-    warn(where, unknown_form(form.name));
+    warn_unknown_form(where, form.name);
     return;
   }
   if (known.schema->part_of_value) {
@@ -194,15 +185,12 @@ void FormReader::warn_unread(const Slot& slot, const Form& form, const KnownForm
     warn(slot.where, ":" + slot.name + " is read, not used");
     return;
   }
-  const std::string nearest = nearest_slot(*known.schema, slot.name);
-  const std::string_view other = form_with_slot(slot.name);
-  std::string advice;
-  if (!other.empty()) {
-    advice = "; the form " + std::string(other) + " has it";
-  } else if (!nearest.empty()) {
-    advice = "; nearest name: :" + nearest;
-  }
-  warn(slot.where, "the form " + form.name + " has no slot :" + slot.name + "; the slot is ignored" + advice);
+  warn_unknown({.kind = Fault::Kind::unknown_slot,
+                .where = slot.where,
+                .form = form.name,
+                .slot = slot.name,
+                .nearest = nearest_slot(*known.schema, slot.name),
+                .owner = std::string(form_with_slot(slot.name))});
 }
 
 void FormReader::read_slot(const SlotSchema& schema, const Value& value, const std::string& form) {
@@ -218,7 +206,7 @@ void FormReader::read_slot(const SlotSchema& schema, const Value& value, const s
     const Form& angle = std::get<Form>(value.data);
     const KnownForm known = forms_.find(angle.name);
     if (known.schema == nullptr || known.schema->name != "lat-long") {
-      reject(value.where, value_kind(schema) + " for :" + std::string(schema.name), description(value));
+      reject_value(value.where, schema, description(value));
     }
     read_form(angle, value.where, known);
     read_sexagesimal(builder_, schema, value.where);
@@ -268,12 +256,11 @@ void FormReader::read_form_of_slot(const SlotSchema& schema, const FormSlot& kin
   const KnownForm known = form == nullptr ? KnownForm{} : forms_.find(form->name);
   const bool unknown = form != nullptr && known.schema == nullptr;
   if (unknown && in_list) {
-    warn(value.where, unknown_form(form->name));
+    warn_unknown_form(value.where, form->name);
     return;
   }
   if (form == nullptr || unknown || !accepts(kind, *known.schema)) {
-    reject(value.where, value_kind(schema) + " for :" + std::string(schema.name),
-           description(value) + (unknown ? ", which is unknown" : ""));
+    reject_value(value.where, schema, description(value) + (unknown ? ", which is unknown" : ""));
   }
   read_form(*form, value.where, known);
   if (kind.store) kind.store(builder_);
@@ -281,6 +268,16 @@ void FormReader::read_form_of_slot(const SlotSchema& schema, const FormSlot& kin
 
 void FormReader::warn(const Location& where, const std::string& text) {
   if (warnings_.size() < kMaxWarnings) warnings_.push_back(text_of(where) + ": " + text);
+}
+
+void FormReader::warn_unknown(Fault fault) {
+  if (warnings_.size() >= kMaxWarnings) return;
+  warn(fault.where, fault_text(fault));
+  unknown_.push_back(std::move(fault));
+}
+
+void FormReader::warn_unknown_form(const Location& where, const std::string& name) {
+  warn_unknown({.kind = Fault::Kind::unknown_form, .where = where, .form = name, .nearest = nearest_form(name)});
 }
 
 void FormReader::warn_spelling(const Location& where, const std::string& found, std::string_view modern,

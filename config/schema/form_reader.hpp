@@ -51,6 +51,8 @@ class FormReader {
   void read_all(const std::vector<Slot>& arguments);
   // Remarks on valid text that may be a mistake: "FILE:LINE:COLUMN: note: TEXT".
   const std::vector<std::string>& notes() const { return notes_; }
+  // Unknown forms and slots, which are among the warnings.
+  const std::vector<Fault>& unknown() const { return unknown_; }
 
  private:
   // A slot of a form in the text, with the row of the schema for this slot.
@@ -74,6 +76,8 @@ class FormReader {
   void read_form_of_slot(const SlotSchema& schema, const FormSlot& kind, const Value& value, bool in_list);
   void warn_unread(const Slot& slot, const Form& form, const KnownForm& known);
   void warn(const Location& where, const std::string& text);
+  void warn_unknown(Fault fault);
+  void warn_unknown_form(const Location& where, const std::string& name);
   void warn_spelling(const Location& where, const std::string& found, std::string_view modern, Spelling spelling);
 
   ConfigurationBuilder& builder_;
@@ -82,6 +86,7 @@ class FormReader {
   std::vector<DeferredCheck> deferred_checks_;
   PairedLists paired_lists_;
   std::vector<std::string> notes_;
+  std::vector<Fault> unknown_;
   bool unused_ = false;  // true inside an unused slot: unused slots of the forms in it cause no further warnings
 };
 

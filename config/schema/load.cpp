@@ -323,6 +323,22 @@ error::Expected<LoadedConfiguration> load_configuration_text(std::string_view te
   return tree_of_text(text, name).and_then(configuration_from);
 }
 
+std::vector<Fault> faults_of_text(std::string_view text, const std::string& name) {
+  const BuilderPointer builder = new_builder();
+  std::vector<std::string> warnings;
+  FormReader reader(*builder, warnings);
+  std::optional<Fault> last;
+  try {
+    reader.read_all(parse(text, name).arguments);
+  } catch (const ParseError& parse_error) {
+    last = parse_error.fault;
+    if (last->error.expected.empty()) last->error = parse_error.error;  // of the whole text
+  }
+  std::vector<Fault> faults = reader.unknown();
+  if (last) faults.push_back(std::move(*last));
+  return faults;
+}
+
 error::Expected<radar::RadarConfiguration> load_program_configuration(const std::filesystem::path& path) {
   auto loaded = load_configuration(path);
   if (!loaded) return tl::unexpected(loaded.error());

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "config/guf/tree.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/network.hpp"
@@ -31,6 +32,10 @@ error::Expected<LoadedConfiguration> load_configuration(const std::filesystem::p
 
 // Like load_configuration(), but from a text in memory. Errors and warnings use `name` as the name of the file.
 error::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name);
+
+// Faults of a GUF text in memory, for a program that words them: unknown forms and slots, and behind them the first
+// value that is not valid, where the reader ends. An empty vector: none.
+std::vector<Fault> faults_of_text(std::string_view text, const std::string& name);
 
 // Like load_configuration(), but writes the warnings to the log.
 error::Expected<radar::RadarConfiguration> load_program_configuration(const std::filesystem::path& path);

@@ -117,7 +117,7 @@ class Reader {
  private:
   [[noreturn]] void wrong(const Value& value, std::string found = {}) const {
     if (found.empty()) found = description(value);
-    reject(value.where, value_kind(slot_) + " for :" + std::string(slot_.name), std::move(found), kManual);
+    reject_value(value.where, slot_, std::move(found), kManual);
   }
 
   double number(const Value& value) const {
@@ -181,6 +181,15 @@ class Reader {
 };
 
 }  // namespace
+
+void reject_value(const Location& where, const SlotSchema& slot, std::string found, std::string action) {
+  Fault fault{.where = where,
+              .slot = std::string(slot.name),
+              .error = {{}, value_kind(slot), std::move(found), std::move(action)}};
+  if (std::isfinite(slot.lowest)) fault.error.low = slot.lowest;
+  if (std::isfinite(slot.highest)) fault.error.high = slot.highest;
+  reject(std::move(fault));
+}
 
 void read_simple(ConfigurationBuilder& builder, const SlotSchema& slot, const Value& value) {
   std::visit(Reader(builder, slot, value), slot.binding);

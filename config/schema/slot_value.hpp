@@ -5,10 +5,16 @@
 // Errors: ParseError with location, kind and range of the slot, and the value found.
 #pragma once
 
+#include <string>
+
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
 
 namespace yars::config {
+
+// Throws ParseError for a value that the slot does not take. Its fault names the slot and its limits.
+[[noreturn]] void reject_value(const Location& where, const SlotSchema& slot, std::string found,
+                               std::string action = {});
 
 // Validates one value and writes it into the field of its slot. Throws ParseError. Values that are forms are read by
 // FormReader instead. For a lat-long form, FormReader fills builder.angle and then calls read_sexagesimal(). A call of

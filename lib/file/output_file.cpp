@@ -58,6 +58,7 @@ bool is_missing_space(int error_number) {
 }
 
 const char* write_advice(int error_number) {
+  if (error_number == EFBIG) return "raise the limit of a file's size (ulimit -f)";
   if (is_missing_space(error_number)) return "check the space on the disk";
   return error_number == EIO ? "check the disk" : "check the folder and its rights";
 }

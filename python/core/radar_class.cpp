@@ -2,9 +2,14 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <type_traits>
 
+#include "config/schema/load.hpp"
+#include "config/schema/slot_text.hpp"
 #include "lib/file/file_search.hpp"
+#include "lib/text/plain_text.hpp"
 #include "lib/values/fields.hpp"
 
 namespace yars::python {
@@ -103,12 +108,44 @@ void add_request(py::module_& module, const char* name) {
   module.attr((std::string(name) + "_fields").c_str()) = fields;
 }
 
+// Faults of a GUF text: dicts of what config::Fault has.
+py::list guf_faults(const std::string& guf) {
+  static constexpr std::array kKinds{"value", "form", "slot"};
+  const text::DecimalPoint numbers;
+  py::list all;
+  for (const config::Fault& fault : config::faults_of_text(guf, "guf")) {
+    py::dict one;
+    one["kind"] = kKinds[static_cast<std::size_t>(fault.kind)];
+    one["line"] = fault.where.line;
+    one["form"] = fault.form;
+    one["slot"] = fault.slot;
+    one["nearest"] = fault.nearest;
+    one["owner"] = fault.owner;
+    one["expected"] = fault.error.expected;
+    one["found"] = fault.error.found;
+    one["action"] = fault.error.action;
+    one["low"] = fault.error.low;
+    one["high"] = fault.error.high;
+    all.append(one);
+  }
+  return all;
+}
+
+// What `yars config print FILE` prints. An empty path: the defaults.
+std::string guf_of_file(const std::string& path) {
+  const text::DecimalPoint numbers;
+  const auto loaded = value_of(config::load_configuration(file::installed_file(path)));
+  return config::print_configuration(loaded.radar) + (loaded.network ? config::print_network(*loaded.network) : "");
+}
+
 }  // namespace
 
 void add_radar(py::module_& module) {
   module.def(
       "installed_file", [](const std::string& name) { return py::bytes(file::installed_file(name)); }, py::arg("name"),
       "Path of a file that came with YARS and is named without a folder; any other path as it is given.");
+  module.def("guf_of_file", &guf_of_file, py::arg("path"), "The configuration of a file as GUF; \"\": the defaults.");
+  module.def("guf_faults", &guf_faults, py::arg("text"), "Unknown names of a GUF text, and its first wrong value.");
   add_request<ScanRequest>(module, "ScanRequest");
   add_request<PatchRequest>(module, "PatchRequest");
   add_request<TerrainGeneration>(module, "TerrainGeneration");

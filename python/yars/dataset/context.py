@@ -2,6 +2,7 @@
 
 `prepare` runs once in the coordinator and reads no terrain;
 `load` runs in the host process, before workers are forked."""
+import functools
 import importlib
 import json
 import os
@@ -11,11 +12,12 @@ import warnings
 
 import numpy as np
 
+from .. import Error
 from . import DatasetError, files, formats
 from .blocks import BlockMaker
 from .distributions import Streams
 from .formats import dump
-from .limits import as_keys, check, command, read_limits, version
+from .limits import check, command, read_limits, version, without_name
 from .sampling import Sampler, World
 from .settings import Settings
 from .spec import read_spec
@@ -55,22 +57,27 @@ def _made_name(number, scene):
 
 def make_inputs(plan, store, read=True):
     """Makes made-up scenes and terrain that are absent; with `read` also those whose contents have changed."""
+    from ..places import Scene, Terrain  # the compiled part, which has read the limits before
     for number, scene in enumerate(plan.scenes):
         if scene.generate:
-            origin = ",".join(f"{value:.12g}" for value in scene.at)
-            _made(store, _made_name(number, scene), f"{plan.path}:{scene.line}", read, [
-                "scene", "generate", "--kind", scene.generate, "--triangles", str(scene.triangles),
-                "--seed", str(scene.seed), f"--origin={origin}"])
+            origin = [f"{value:.12g}" for value in scene.at]
+            _made(store, _made_name(number, scene), f"{plan.path}:{scene.line}", read, functools.partial(
+                Scene.generate, kind=scene.generate, triangles=scene.triangles, seed=scene.seed,
+                origin=[float(value) for value in origin]),
+                  f"scene generate --kind {scene.generate} --triangles {scene.triangles} --seed {scene.seed} "
+                  f"--origin={','.join(origin)}")
     if plan.terrain_generate:
-        _made(store, "terrain", plan.where("terrain"), read, ["terrain", "generate"] + [
-            f"--{name.replace('_', '-')}={value}" for name, value in plan.terrain_generate.items()] +
-              ["--airfields=soil"])
+        _made(store, "terrain", plan.where("terrain"), read,
+              functools.partial(Terrain.generate, **plan.terrain_generate, airfields="soil"),
+              " ".join(["terrain generate"] + [f"--{name.replace('_', '-')}={value}"
+                                               for name, value in plan.terrain_generate.items()] +
+                       ["--airfields=soil"]))
 
 
-def _made(store, name, where, read, arguments):
-    """Makes a file or folder by `yars ARGUMENTS`, if it is not there or not as it was made.
+def _made(store, name, where, read, make, of):
+    """Makes a file or folder by make(path), if it is not there or not as it was made: by `yars` with the words `of`.
     Its sizes and hashes are noted afterwards."""
-    subject, of, path = os.path.basename(name), " ".join(arguments), store.path(name)
+    subject, path = os.path.basename(name), store.path(name)
     known = store.noted(subject, of)
     reason = store.unfit(subject, read, of) or (read and known.keys() != set(_names_of(store, name)) and
                                                 "there are other files")
@@ -78,7 +85,7 @@ def _made(store, name, where, read, arguments):
         return
     temporary = files.temporary_name(path)
     try:
-        _generate(where, path, temporary, arguments)
+        _generate(where, path, temporary, make)
         new = {made: store.size_and_hash(temporary + made[len(name):] if made != name else temporary)
                for made in (_names_of(store, name, temporary))}
         if known and known != new and store.has_blocks():
@@ -115,18 +122,15 @@ def _replace(temporary, path):
         files.remove(old)
 
 
-def _generate(where, path, temporary, arguments):
-    """Runs `yars` with --out under a temporary name. Its messages name the keys of the specification."""
+def _generate(where, path, temporary, make):
+    """Makes a file or folder under a temporary name."""
     try:
         os.makedirs(os.path.dirname(path), exist_ok=True)
-        run = subprocess.run([command(), *arguments, f"--out={temporary}"], capture_output=True, text=True, check=False)
+        make(temporary)
     except OSError as error:
         raise files.failure(path, error) from None
-    if run.returncode:
-        text = run.stderr.strip().replace(temporary, path)
-        raise DatasetError(f"{where}: {as_keys(text)}" if text else
-                           f"{path}: expected to make it by `yars {' '.join(arguments[:2])}`, "
-                           f"found it ended by {files.end_of(run.returncode)}")
+    except (ValueError, Error) as error:
+        raise DatasetError(f"{where}: {without_name(error).replace(temporary, path)}") from None
 
 
 def _centre(scene, path, where):
@@ -135,7 +139,7 @@ def _centre(scene, path, where):
         return scene.at[:2]
     run = subprocess.run([command(), "scene", "info", "--json", str(path)], capture_output=True, text=True, check=False)
     if not run.stdout:  # with 1 and an output, the file is read in part: it has its position
-        raise DatasetError(f"{where}: {as_keys(run.stderr.strip())}")
+        raise DatasetError(f"{where}: {without_name(run.stderr.strip())}")
     entry = json.loads(run.stdout)["files"][0]
     origin = entry["origin_in_name"] or entry["origin"]
     return origin["latitude_deg"], origin["longitude_deg"]

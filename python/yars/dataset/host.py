@@ -18,7 +18,7 @@ import traceback
 import warnings
 
 from . import DatasetError, files
-from .limits import as_keys
+from .limits import without_name
 
 MOST_DEATHS = 5  # of workers with the same block
 END_S = 10.0     # that a host may take to end
@@ -38,7 +38,7 @@ def show_warnings_once():
     def show(message, category, *_, **__):
         if issubclass(category, (DeprecationWarning, PendingDeprecationWarning, FutureWarning, ResourceWarning)):
             return  # for programmers
-        message = as_keys(message)
+        message = without_name(message)
         kind = re.sub(r"[-+0-9.]+", "", message)
         if kind not in seen:
             seen.add(kind)

@@ -1,15 +1,13 @@
 """Limits of a radar for patch maps, read from its configuration: blind zone, gimbal, ranges of each window. Geometry
-that no draw can make possible is found by them when a specification is read. Source: `yars config print`;
+that no draw can make possible is found by them when a specification is read. Source:
 docs/pilots_manual.md#rule-2, #rule-3 and #rule-4."""
 import dataclasses
 import functools
 import math
-import pathlib
-import re
+import os
 import subprocess
-import tempfile
 
-from .. import _compiled, programs
+from .. import Error, _compiled, programs
 from . import DatasetError, SpecError
 from .distributions import Choice, Fixed
 
@@ -56,66 +54,52 @@ def limits_of(text):
     return Limits(**_compiled("dataset").make_radar("", b"", text, []).limits)
 
 
-def _run(verb, path):
-    """(exit code, output, messages) of `yars config VERB`."""
-    run = subprocess.run([command(), "config", verb] + ([str(path)] if path else []), capture_output=True, text=True,
-                         check=False)
-    return run.returncode, run.stdout, run.stderr
+def without_name(message):
+    """A message of `yars` or of the module, without the name of the command or function that it begins with."""
+    name, _, text = str(message).partition(": ")
+    return text if text and (name == "yars" or name.startswith(("yars ", "yars."))) else str(message)
 
 
 def printed(path):
-    """Output of `yars config print PATH`; None: its defaults. Raises DatasetError with the command's message."""
-    code, output, messages = _run("print", path)
-    if code:
-        lines = messages.strip().splitlines() or [f"yars config print: exit code {code}"]
-        raise DatasetError(re.sub(r"^yars[a-z ]*: ", "", lines[-1]))
-    return output
+    """Configuration of a file, or the defaults (None), as `yars config print` prints it.
+    Raises DatasetError with the message of the library."""
+    try:
+        return _compiled("dataset").guf_of_file(os.fsencode(path or ""))
+    except (ValueError, Error) as error:
+        raise DatasetError(str(error)) from None
 
 
-def as_keys(text):
-    """A message of a command or of the module, with keys of a specification in place of options and without the
-    program's name."""
-    names = {"origin": "at", "kind": "generate", "scene": "scenes"}
-    text = re.sub(r"^yars[a-z_. ]*: ", "", str(text), flags=re.M | re.I)
-    return re.sub(r"--([a-z][a-z-]*)", lambda match: names.get(match.group(1), match.group(1).replace("-", "_")), text)
+def _fault_text(fault, key):
+    """Message of a fault in a line of settings, for a run that is refused. `key`: path of a knob, or None."""
+    defaults = "`yars config print --defaults`"
+    if fault["kind"] == "form":
+        nearest = fault["nearest"] and f"; nearest name: {fault['nearest']}"
+        return f'expected the name of a form, found "{fault["form"]}"; {defaults} shows all{nearest}'
+    nearest, slot = ("".join("_" + letter.lower() if letter.isupper() else letter for letter in name) if key else name
+                     for name in (fault["nearest"], fault["slot"]))
+    if fault["kind"] == "slot":
+        expected = "a knob for radar.knobs" if key else f"a slot of {fault['form']}"
+        action = (f"{defaults} explains every slot; the form {fault['owner']} has it" if fault["owner"] else
+                  f'did you mean "{nearest}"?' if nearest else f"{defaults} explains every slot")
+        return f'expected {expected}, found "{slot}"; {action}'
+    of_slot = slot and f" for {'' if key else ':'}{slot}"
+    action = fault["action"] and f"; {fault['action']}"
+    return f"expected {fault['expected']}{of_slot}, found {fault['found']}{action}"
 
 
-def _fault_text(text, key):
-    """A message of `yars config check` about a line of settings, for a run that is refused.
-    `key`: path of a knob, or None."""
-    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored; nearest name: :(\S+)",
-                  r'expected a slot of \1, found "\2"; '
-                  r'did you mean "\3"?', text)
-    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored",
-                  r'expected a slot of \1, found "\2"; `yars config print --defaults` '
-                  "explains every slot", text)
-    text = re.sub(r"the form (\S+) is unknown and ignored", r'expected the name of a form, found "\1"; '
-                  "`yars config print --defaults` shows all", text)
-    if key:
-        text = re.sub(r'(?<=for ):(\w+)|(?<=")(\w+)(?=")',
-                      lambda match: re.sub("[A-Z]", lambda big: "_" + big.group().lower(),
-                                           match.group(1) or match.group(2)), text)
-        return text.replace("a slot of Fidelity", "a knob for radar.knobs")
-    return text
-
-
-def _faults_of(text, lines, plan, path):
+def _faults_of(text, lines, plan):
     """Faults of lines of GUF after a configuration.
-    The check ends at the first error, so it is done again without that line."""
+    The check ends at the first wrong value, so it is done again without that line."""
     left, faults, first = list(lines), {}, text.count("\n") + 1
     while len(faults) < MOST_FAULTS:
-        path.write_text(text + "".join(line + "\n" for line, _, _ in left))
-        code, output, messages = _run("check", path)
-        wrong = set()
-        for match in re.finditer(rf"{re.escape(str(path))}:(\d+):\d+: (.*)", messages + output):
-            at = int(match.group(1)) - first
-            if 0 <= at < len(left) and ("ignored" in match.group(2) or "expected" in match.group(2)):
-                wrong.add(at)
-                _, line, key = left[at]
-                faults.setdefault(f"{plan.path}:{line}: {_fault_text(match.group(2), key)}", line)
-        if not wrong or not code:
+        found = _compiled("dataset").guf_faults(text + "".join(line + "\n" for line, _, _ in left))
+        wrong = [(fault["line"] - first, fault) for fault in found if 0 <= fault["line"] - first < len(left)]
+        for at, fault in wrong:
+            _, line, key = left[at]
+            faults.setdefault(f"{plan.path}:{line}: {_fault_text(fault, key)}", line)
+        if not wrong or found[-1]["kind"] != "value":
             break
-        left = [line for at, line in enumerate(left) if at not in wrong]
+        left = [line for at, line in enumerate(left) if at not in dict(wrong)]
     return sorted(faults, key=faults.get)
 
 
@@ -127,17 +111,13 @@ def read_limits(plan, lines):
         text = printed(plan.config)
     except DatasetError as error:
         raise SpecError(f"{plan.where('radar.config')}: {error}") from None
-    if not lines:
-        return limits_of(text)
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "radar.guf"
-        faults = _faults_of(text, lines, plan, path)
-        if faults:
-            raise SpecError("\n".join(faults))
-        try:
-            return limits_of(printed(path))
-        except DatasetError as error:
-            raise SpecError(f"{plan.where('radar')}: {error}") from None
+    faults = _faults_of(text, lines, plan) if lines else []
+    if faults:
+        raise SpecError("\n".join(faults))
+    try:
+        return limits_of(text + "".join(line + "\n" for line, _, _ in lines))
+    except ValueError as error:
+        raise SpecError(f"{plan.where('radar')}: {error}") from None
 
 
 def impossible(law, intervals):

@@ -9,7 +9,7 @@ import hashlib
 import numpy as np
 
 from . import DatasetError
-from .limits import as_keys
+from .limits import without_name
 
 OBJECT = np.dtype([("name", "U64"), ("latitude", "f8"), ("longitude", "f8")])
 
@@ -60,7 +60,7 @@ class YarsMaker:
             self._scene = yars.Scene(files, self._terrain, without=without) if scenes else None
         except (ValueError, yars.Error) as error:
             lines = [scene.line for scene, (path, _, _) in zip(plan.scenes, scenes) if str(path) in str(error)]
-            raise DatasetError(f"{f'{plan.path}:{lines[0]}' if lines else where}: {as_keys(error)}") from None
+            raise DatasetError(f"{f'{plan.path}:{lines[0]}' if lines else where}: {without_name(error)}") from None
         self.objects = self._scene.objects if scenes else np.empty(0, OBJECT)
 
     def elevation(self, latitude, longitude):
@@ -82,7 +82,7 @@ class YarsMaker:
                                                  scene=self._scene, arrays=plan.arrays, threads=1,
                                                  force=plan.geometry["force"], min_pixels=plan.min_pixels, **arguments)
         except (ValueError, self._yars.Error) as error:
-            raise DatasetError(f"{plan.path}: {as_keys(error)}") from None
+            raise DatasetError(f"{plan.path}: {without_name(error)}") from None
 
     def warm(self, sample, settings):
         """Reads terrain and scenes of the sample, so that workers share them."""
