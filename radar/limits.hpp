@@ -26,16 +26,12 @@ Error beyond_field(std::string subject, const values::Field& field, double found
 template <class Request>
 void check_fields(const Request& request) {
   values::visit_fields(request, [](const values::Field& field, const auto& value) {
-    const auto check = [&field](const auto& number) {
-      if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(number)>>)
-        if (const auto found = static_cast<double>(number); !field.contains(found))
-          fail(beyond_field(std::string(field.name), field, found));
-    };
-    if constexpr (requires { value.has_value(); }) {
-      if (value) check(*value);
-    } else {
-      check(value);
-    }
+    std::optional<double> found;
+    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
+      found = static_cast<double>(value);
+    else if constexpr (requires { value.has_value(); })
+      if (value) found = static_cast<double>(*value);
+    if (found && !field.contains(*found)) fail(beyond_field(std::string(field.name), field, *found));
   });
 }
 

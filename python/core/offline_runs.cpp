@@ -87,12 +87,8 @@ void generate_scene(const std::string& file, const SceneGeneration& request,
 void add_offline_runs(py::module_& module) {
   module.def("generate_terrain", &generate_terrain, py::arg("directory"), py::arg("request"));
   module.def("generate_scene", &generate_scene, py::arg("path"), py::arg("request"), py::arg("origin"));
-  const auto add_trade = [&module](auto* trade) {
-    module.def("trade", trade, py::arg("terrain").none(true), py::arg("radar"), py::arg("request"), py::arg("csv"),
-               py::arg("out"));
-  };
-  add_trade(&trade<ScanTradeRequest>);
-  add_trade(&trade<MapTradeRequest>);
+  module.def("trade", &trade<ScanTradeRequest>);
+  module.def("trade", &trade<MapTradeRequest>);
 }
 
 }  // namespace yars::python

@@ -113,20 +113,13 @@ py::list guf_faults(const std::string& guf) {
   static constexpr std::array kKinds{"value", "form", "slot"};
   const text::DecimalPoint numbers;
   py::list all;
+  using namespace pybind11::literals;
   for (const config::Fault& fault : config::faults_of_text(guf, "guf")) {
-    py::dict one;
-    one["kind"] = kKinds[static_cast<std::size_t>(fault.kind)];
-    one["line"] = fault.where.line;
-    one["form"] = fault.form;
-    one["slot"] = fault.slot;
-    one["nearest"] = fault.nearest;
-    one["owner"] = fault.owner;
-    one["expected"] = fault.error.expected;
-    one["found"] = fault.error.found;
-    one["action"] = fault.error.action;
-    one["low"] = fault.error.low;
-    one["high"] = fault.error.high;
-    all.append(one);
+    const Error& error = fault.error;
+    all.append(py::dict("kind"_a = kKinds[static_cast<std::size_t>(fault.kind)], "line"_a = fault.where.line,
+                        "form"_a = fault.form, "slot"_a = fault.slot, "nearest"_a = fault.nearest,
+                        "owner"_a = fault.owner, "expected"_a = error.expected, "found"_a = error.found,
+                        "action"_a = error.action, "low"_a = error.low, "high"_a = error.high));
   }
   return all;
 }

@@ -146,12 +146,8 @@ class Radar(Held):
 
 @overload
 def trade(
-    terrain: Terrain | None = None,
-    radar: Radar | None = None,
-    *,
-    maps: Literal[False] = False,
-    csv: str | bytes | PathLike[str] | None = None,
-    out: str | bytes | PathLike[str] | None = None,
+    terrain: Terrain | None = None, radar: Radar | None = None, *, maps: Literal[False] = False,
+    csv: str | bytes | PathLike[str] | None = None, out: str | bytes | PathLike[str] | None = None,
         # begin: lib/values/generate.py, ScanTradeRequest
         presets: str | list[str] | None = ...,  # preset names separated by commas, or all, or none; left out: all
         # KNOB=VALUE,VALUE,...: values of one setting of the base; repeatable; left out: none
@@ -159,8 +155,7 @@ def trade(
         base: str = ...,  # preset in which a knob changes one setting
         # reference: this preset; same: the reference algorithm with the other settings of each candidate
         ruler: Literal["reference", "same"] = ...,
-        # 1 to 1000: number of timed runs with warm caches; the result is their median. The reference algorithm runs
-        # once
+        # 1 to 1000: timed runs with warm caches; their median counts. Of the reference algorithm one run
         repeat: int = ...,
         # place and range of a scan: LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable; left out: three ranges in the middle of
         # the terrain
@@ -171,12 +166,8 @@ def trade(
 ) -> dict[str, Any]: ...
 @overload
 def trade(
-    terrain: Terrain | None = None,
-    radar: Radar | None = None,
-    *,
-    maps: Literal[True],
-    csv: str | bytes | PathLike[str] | None = None,
-    out: str | bytes | PathLike[str] | None = None,
+    terrain: Terrain | None = None, radar: Radar | None = None, *, maps: Literal[True],
+    csv: str | bytes | PathLike[str] | None = None, out: str | bytes | PathLike[str] | None = None,
         # begin: lib/values/generate.py, MapTradeRequest
         presets: str | list[str] | None = ...,  # preset names separated by commas, or all, or none; left out: all
         # KNOB=VALUE,VALUE,...: values of one setting of the base; repeatable; left out: none
@@ -184,8 +175,7 @@ def trade(
         base: str = ...,  # preset in which a knob changes one setting
         # reference: this preset; same: the reference algorithm with the other settings of each candidate
         ruler: Literal["reference", "same"] = ...,
-        # 1 to 1000: number of timed runs with warm caches; the result is their median. The reference algorithm runs
-        # once
+        # 1 to 1000: timed runs with warm caches; their median counts. Of the reference algorithm one run
         repeat: int = ...,
         # OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable; left out: the configuration's alone
         scene: str | list[str] | None = ...,

@@ -165,6 +165,13 @@ class Arguments(Folder):
             self.refused(ValueError, "width_deg: expected 1 to 120 deg", lambda: yars.trade(scan_width=121))
         self.refused(TypeError, "knob: expected a text", lambda: yars.trade(knob=3))
 
+    def test_faults_of_guf_are_structures(self):
+        unknown, wrong = yars._core.guf_faults("( Receiver :freqency 9 )\n( Sea :state 9 )")
+        self.assertEqual([unknown[name] for name in ("kind", "line", "form", "slot", "nearest")],
+                         ["slot", 1, "Receiver", "freqency", "frequency"])
+        self.assertEqual([wrong[name] for name in ("kind", "line", "slot", "found", "low", "high")],
+                         ["value", 2, "state", "the number 9", 0.0, 6.0])
+
     def test_arrays_are_no_whole_numbers(self):
         terrain, radar = yars.Terrain(), yars.Radar("draft")
         wanted = radar.scan(terrain, **SCAN)

@@ -55,25 +55,6 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::Plot
 
 }  // namespace
 
-void add_trade_options(runtime::Command command, TradeOptions& options) {
-  command.find("--presets").value_name("NAMES");
-  command.find("--knob").value_name("VALUES");
-  command.find("--base").one_of({radar::fidelity_names().begin(), radar::fidelity_names().end()});
-  add_terrain_option(command, options.configuration.terrain).otherwise("the configuration's, else built-in hills");
-  command.option("--csv", options.csv, "CSV file with one row per candidate and scene")
-      .value_name("FILE")
-      .otherwise("none");
-  command.option("--out", options.out, "JSON file (.json), which plot_trade draws")
-      .value_name("FILE")
-      .otherwise("none");
-  add_json_flag(command, options.json, "print one JSON object in place of the table");
-}
-
-void check_trade_output(const TradeOptions& options) {
-  check_file_name("--out", options.out, {".json"});
-  check_file_name("--csv", options.csv, {".csv"});
-}
-
 std::string json_text(const TradeResult& result) {
   nlohmann::ordered_json all = json_of(result.table, result.axes);
   all["left_out"] = result.left_out;
@@ -87,13 +68,6 @@ void write_trade_files(const std::string& csv, const std::string& out, const Tra
   if (!out.empty()) {
     if (auto written = file::write_file(out, json_text(result) + "\n"); !written) throw_failure(written.error());
   }
-}
-
-void write_trade(const TradeOptions& options, const TradeResult& result) {
-  write_trade_files(options.csv, options.out, result);
-  std::printf("%s\n", options.json ? json_text(result).c_str() : trade::table_text(result.table).c_str());
-  std::fflush(stdout);
-  fail_if_left_out(result.left_out);
 }
 
 geo::GeoPoint default_position(const std::string& directory) {
@@ -274,23 +248,55 @@ TradeResult measure_trade(const ScanTradeRequest& request, const radar::RadarCon
           left_out.sentences()};
 }
 
-void add_trade_command(runtime::Command app, const CommonOptions& common) {
-  struct ScanTradeOptions : TradeOptions {
-    ScanTradeRequest request;
+namespace {
+
+// Adds the options of a trade, and what it does. `name`: of the command, for warnings.
+template <class Request>
+void add_trade(runtime::Command command, const CommonOptions& common, const char* name) {
+  struct Options {
+    Request request;
+    ConfigurationOptions configuration;
+    std::string csv, out;
+    bool json = false;
   };
-  auto options = std::make_shared<ScanTradeOptions>();
-  runtime::Command command =
-      app.subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patch maps");
+  const auto options = std::make_shared<Options>();
   add_request_options(command, options->request);
-  command.find("--scene").value_name("SCENE");
-  add_trade_options(command, *options);
-  add_trade_maps(command, common);
-  command.callback([command, options, &common] {
+  command.find("--presets").value_name("NAMES");
+  command.find("--knob").value_name("VALUES");
+  command.find("--base").one_of({radar::fidelity_names().begin(), radar::fidelity_names().end()});
+  add_terrain_option(command, options->configuration.terrain).otherwise("the configuration's, else built-in hills");
+  command.option("--csv", options->csv, "CSV file with one row per candidate and scene")
+      .value_name("FILE")
+      .otherwise("none");
+  command.option("--out", options->out, "JSON file (.json), which plot_trade draws")
+      .value_name("FILE")
+      .otherwise("none");
+  add_json_flag(command, options->json, "print one JSON object in place of the table");
+  command.callback([command, options, &common, name] {
     if (command.has_subcommand()) return;
-    check_trade_output(*options);
+    check_file_name("--out", options->out, {".json"});
+    check_file_name("--csv", options->csv, {".csv"});
     const radar::RadarConfiguration configuration = read_configuration(common.config, options->configuration);
-    write_trade(*options, measure_trade(options->request, configuration, warn_as("yars trade")));
+    const TradeResult result = measure_trade(options->request, configuration, warn_as(name));
+    write_trade_files(options->csv, options->out, result);
+    std::printf("%s\n", options->json ? json_text(result).c_str() : trade::table_text(result.table).c_str());
+    std::fflush(stdout);
+    fail_if_left_out(result.left_out);
   });
+}
+
+}  // namespace
+
+void add_trade_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command scans =
+      app.subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patch maps");
+  add_trade<ScanTradeRequest>(scans, common, "yars trade");
+  scans.find("--scene").value_name("SCENE");
+  runtime::Command maps = scans.subcommand("maps", "speed against accuracy of patch maps");
+  add_trade<MapTradeRequest>(maps, common, "yars trade maps");
+  maps.find("--scene").value_name("FILE");
+  maps.find("--scene-without").value_name("NAME");
+  maps.find("--view").value_name("VIEW");
 }
 
 }  // namespace yars::tools

@@ -1,9 +1,7 @@
 // `yars trade maps`: speed against accuracy of patch maps. Compares presets, and series of values of one setting
-// (knob), with the reference over several views. Prints the result on standard output, progress on a terminal.
+// (knob), with the reference over several views. Prints progress on a terminal.
 
-#include <cstdio>
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +11,7 @@
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "radar/limits.hpp"
-#include "runtime/program.hpp"
+#include "tools/command/command.hpp"
 #include "tools/command/output.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/map_errors.hpp"
@@ -182,24 +180,6 @@ TradeResult measure_trade(const MapTradeRequest& request, radar::RadarConfigurat
           {{trade::kMapMs, "time per map (ms of one core)"},
            {{{trade::kMapPower, "power error (dB RMS)"}, {trade::kMapShadow, "shadow mismatch (% of pixels)"}}}},
           left_out.sentences()};
-}
-
-void add_trade_maps(runtime::Command trade, const CommonOptions& common) {
-  struct MapTradeOptions : TradeOptions {
-    MapTradeRequest request;
-  };
-  auto options = std::make_shared<MapTradeOptions>();
-  runtime::Command command = trade.subcommand("maps", "speed against accuracy of patch maps");
-  add_request_options(command, options->request);
-  command.find("--scene").value_name("FILE");
-  command.find("--scene-without").value_name("NAME");
-  command.find("--view").value_name("VIEW");
-  add_trade_options(command, *options);
-  command.callback([options, &common] {
-    check_trade_output(*options);
-    const radar::RadarConfiguration configuration = read_configuration(common.config, options->configuration);
-    write_trade(*options, measure_trade(options->request, configuration, warn_as("yars trade maps")));
-  });
 }
 
 }  // namespace yars::tools

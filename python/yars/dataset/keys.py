@@ -55,16 +55,10 @@ def _key(path, kind, ends=None, unit="", drawn=False, default="required", text="
     return Key(path, kind, least, most, unit, drawn, default, text, tuple(values))
 
 
-def _value(path, name, default=None, text=None, kind="number"):
-    """A drawn key whose limits, unit, default and purpose are those of a value of the description."""
+def _value(path, name, default=None, text=None, kind="number", drawn=True):
+    """A key whose limits, unit, default and purpose are those of a value of the description."""
     least, most, unit, its_default, purpose = _VALUES[name]
-    return _key(path, kind, (least, most), unit, True, default or its_default or "required", text or purpose)
-
-
-def _made(path, name, default="required", text=None):
-    """A whole number of made-up terrain or scenes, with limits and unit of the description."""
-    least, most, unit, _, purpose = _VALUES[name]
-    return _key(path, "whole", (least, most), unit, default=default, text=text or purpose)
+    return _key(path, kind, (least, most), unit, drawn, default or its_default or "required", text or purpose)
 
 
 _ROWS = [
@@ -108,18 +102,19 @@ _ROWS = [
     _value("weather.rain.top_ft", "WorldRainCell.top"),
 
     _key("terrain.generate", "section", default="none", text="made-up terrain, written to DIR/terrain"),
-    _made("terrain.generate.south", "TerrainGeneration.south"),
-    _made("terrain.generate.west", "TerrainGeneration.west"),
-    _made("terrain.generate.cells_lat", "TerrainGeneration.cells_lat", "1"),
-    _made("terrain.generate.cells_lon", "TerrainGeneration.cells_lon", "1"),
-    _made("terrain.generate.level", "TerrainGeneration.level", "1"),
+    _value("terrain.generate.south", "TerrainGeneration.south", "required", kind="whole", drawn=False),
+    _value("terrain.generate.west", "TerrainGeneration.west", "required", kind="whole", drawn=False),
+    _value("terrain.generate.cells_lat", "TerrainGeneration.cells_lat", "1", kind="whole", drawn=False),
+    _value("terrain.generate.cells_lon", "TerrainGeneration.cells_lon", "1", kind="whole", drawn=False),
+    _value("terrain.generate.level", "TerrainGeneration.level", "1", kind="whole", drawn=False),
     _key("terrain.generate.seed", "whole", (0, 2**53), "", default="12", text="seed of the landscape"),
     _key("terrain.generate.edge", "text", default="coast", text="what is at the area's edge", values=("coast", "cut")),
 
     _key("scenes.file", "path", default="none", text="OpenFlight file; this or `generate`"),
     _key("scenes.generate", "text", default="none", text="kind of a made-up scene, written to DIR/scenes",
          values=("airfield", "harbour", "bridge", "town")),
-    _made("scenes.triangles", "SceneGeneration.triangles", "20000", "of a made-up scene: approximate number"),
+    _value("scenes.triangles", "SceneGeneration.triangles", "20000", "of a made-up scene: approximate number",
+           kind="whole", drawn=False),
     _key("scenes.seed", "whole", (0, 2**53), "", default="1", text="of a made-up scene"),
     _key("scenes.at", "place", unit="deg", default="the file's own",
          text="[latitude, longitude] or [latitude, longitude, heading]"),
