@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "inputmonitor/device_decoder.hpp"
-#include "inputmonitor/device_map.hpp"
 #include "inputmonitor/event_source.hpp"
 #include "lib/error/error.hpp"
 

@@ -1,16 +1,20 @@
-// Sources of input events: the interface, a group of sources, and scripts played by simulation time.
-// Inputs: the time of each call (Moment); text of a script.
-// Outputs: input events without time stamps and sequence numbers; InputMonitorShell adds these.
-// Units: nanoseconds; waits in milliseconds.
-// Errors: parse_script() reports file name and line.
+// Sources of input events: the interface, a group of sources, and scripts played by simulation time. Lines of a script,
+// whose syntax tours share: their times, and the last line `end`.
+// Inputs: the time of each call (Moment); text of a script; `#` begins a comment.
+// Outputs: input events without time stamps and sequence numbers; InputMonitorShell adds these. Each line with its
+// time, in order; the time of `end`.
+// Units: nanoseconds, in scripts of sim time; waits in milliseconds.
+// Errors: of a script: file name and line, what was expected, what was found.
 // Threads: all calls of a source come from one thread; a source starts no thread. No source reads a clock.
 #pragma once
 
 #include <poll.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +24,29 @@
 #include "lib/error/error.hpp"
 
 namespace yars::inputmonitor {
+
+// One line without its time.
+struct ScriptLine {
+  std::int64_t time_ns = 0;
+  std::string_view what;  // the words after the time
+  std::string location;   // file name and line number, for errors
+};
+
+struct ScriptTimes {
+  std::optional<std::int64_t> end_ns;  // time of `end`; nullopt: there is no such line
+  bool from_start = false;             // true: times count from the start of the script; false: simulation times
+};
+
+// Line:  TIME_S WHAT | +DT_S WHAT | [TIME_S] end
+//   TIME_S     simulation time [s], not before the time of the line above
+//   +DT_S      interval after the time of the line above [s]. If the first line has this form, all times count from the
+//              moment when the script starts.
+//   end        end of the script, by default at the time of the line above; must be the last line
+// A line that begins with a word of `timeless` has the time of the line above. `forms`: valid lines, for errors.
+// `take` gets each line except `end`; its error ends the reading.
+error::Expected<ScriptTimes> read_script_lines(std::string_view text, std::string_view name, std::string_view forms,
+                                               std::span<const std::string_view> timeless,
+                                               const std::function<error::Expected<void>(const ScriptLine&)>& take);
 
 // Time of a call: on the monotonic clock and in sim time.
 struct Moment {
@@ -104,7 +131,7 @@ class SourceGroup final : public EventSource {
   std::vector<std::unique_ptr<EventSource>> sources_;
 };
 
-// Script: one event per line, with its simulation time. script_lines.hpp has the syntax of times and of `end`. EVENT
+// Script: one event per line, with its simulation time. The syntax of times and of `end` is above. EVENT
 // has the syntax of databuffer/messages/input_event.hpp. Except in lockstep, the input monitor ends with the script.
 struct ScriptedEvent {
   std::int64_t time_ns = 0;

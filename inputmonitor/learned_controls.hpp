@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "inputmonitor/device_map.hpp"
+#include "inputmonitor/device_decoder.hpp"
 #include "inputmonitor/gestures.hpp"
 #include "lib/radar/devices.hpp"
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "inputmonitor/device_map.hpp"
+#include "inputmonitor/device_decoder.hpp"
 #include "inputmonitor/gestures.hpp"
 #include "inputmonitor/learned_controls.hpp"
 #include "lib/radar/devices.hpp"

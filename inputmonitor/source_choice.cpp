@@ -11,10 +11,9 @@
 #include "inputmonitor/device_source.hpp"
 #include "inputmonitor/event_source.hpp"
 #include "inputmonitor/keyboard_source.hpp"
-#include "inputmonitor/terminal.hpp"
 #include "inputmonitor/tour.hpp"
 #include "lib/file/text_file.hpp"
-#include "lib/text/nearest_word.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "databuffer/messages/input_event.hpp"
-#include "inputmonitor/script_lines.hpp"
+#include "inputmonitor/event_source.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {

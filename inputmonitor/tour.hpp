@@ -28,7 +28,7 @@ struct TourItem {
   bool automatic = false;          // event: the tour sends it also when it waits for the pilot
 };
 
-// Lines of a tour, besides those of a script (script_lines.hpp):
+// Lines of a tour, besides those of a script (event_source.hpp):
 //   title TEXT             name of the tour
 //   [TIME_S] caption TEXT  a step; `|` separates up to 3 lines of up to 47 characters. Without TEXT: no caption
 //   TIME_S auto EVENT      an event that the pilot need not do

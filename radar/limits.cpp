@@ -10,11 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "lib/radar/gimbal.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/sensor.hpp"
 #include "lib/text/plain_text.hpp"
-#include "radar/failure.hpp"
 
 namespace yars::radar {
 

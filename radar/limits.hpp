@@ -1,8 +1,9 @@
+// Errors inside the library: fail() throws a Failure, and guarded() turns it into the error of a public function.
 // Limits of the requests, and of the radar for a scan and a patch map.
 // Errors: check_fields() throws Failure; the beyond_... and beneath_... functions return an Error if a limit is
 // exceeded, else nullopt. Messages name fields of requests.idl in backquotes, with a value as `heading_deg=45`;
 // spelled() puts the words of a command line or of keywords there.
-// Source: lib/radar/mapping.hpp (limits of maps).
+// Source: lib/radar/mission.hpp (limits of maps).
 #pragma once
 
 #include <functional>
@@ -10,14 +11,43 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "lib/error/error.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/parallel/thread_pool.hpp"
+#include "lib/radar/mission.hpp"
+#include "lib/text/plain_text.hpp"
 #include "lib/values/fields.hpp"
 #include "model/hrm/patch_geometry.hpp"
-#include "radar/failure.hpp"
 
 namespace yars::radar {
+
+struct Failure {
+  Error error;
+};
+
+[[noreturn]] inline void fail(Error error) {
+  throw Failure{std::move(error)};
+}
+
+// Returns the result of call(), or the error that it has thrown.
+template <class Function>
+auto guarded(const Function& call) -> Expected<std::invoke_result_t<Function>> {
+  const text::DecimalPoint numbers;  // in GUF, messages and names, whatever the caller's locale has
+  try {
+    if constexpr (std::is_void_v<std::invoke_result_t<Function>>) {
+      call();
+      return {};
+    } else {
+      return call();
+    }
+  } catch (const Failure& failure) {
+    return tl::unexpected(failure.error);
+  } catch (const parallel::Stopped&) {
+    return tl::unexpected(Error{"", "a call that goes on", "one that was ended", "", ErrorCode::cancelled, {}, {}});
+  }
+}
+
 struct AntennaConfiguration;
 
 // The error of a number beyond the limits of a field. `subject`: the field's name, or the path of an entry.

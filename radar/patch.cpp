@@ -8,12 +8,11 @@
 #include <thread>
 #include <utility>
 
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/physics/environment.hpp"
-#include "radar/failure.hpp"
 #include "radar/limits.hpp"
-#include "radar/patch_work.hpp"
+#include "radar/private_data.hpp"
 #include "yars/radar.hpp"
 
 namespace yars {

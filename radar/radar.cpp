@@ -7,7 +7,7 @@
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
-#include "radar/failure.hpp"
+#include "radar/limits.hpp"
 #include "radar/theatre.hpp"
 
 namespace yars {

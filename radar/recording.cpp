@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "databuffer/messages/record_fields.hpp"
-#include "radar/failure.hpp"
-#include "radar/recording/recording_reader.hpp"
+#include "radar/limits.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "radar/theatre.hpp"
 
 namespace yars {

@@ -7,9 +7,8 @@
 
 #include "model/kernel/offline_scan.hpp"
 #include "model/physics/sweep_geometry.hpp"
-#include "radar/failure.hpp"
 #include "radar/limits.hpp"
-#include "radar/scan_work.hpp"
+#include "radar/private_data.hpp"
 #include "yars/radar.hpp"
 
 namespace yars {

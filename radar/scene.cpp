@@ -7,10 +7,10 @@
 #include <set>
 #include <utility>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/scene/index/scene_index.hpp"
-#include "radar/failure.hpp"
-#include "radar/stores.hpp"
+#include "radar/limits.hpp"
+#include "radar/private_data.hpp"
 
 namespace yars {
 

@@ -5,11 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/text/plain_text.hpp"
-#include "radar/failure.hpp"
 #include "radar/limits.hpp"
-#include "radar/stores.hpp"
+#include "radar/private_data.hpp"
 
 namespace yars {
 

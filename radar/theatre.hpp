@@ -1,7 +1,9 @@
 // Theatre: terrain and scenes in which scans and patch maps are computed, without a session. The stores stay open, so
 // that later scans and maps find in memory what earlier ones have read. TheatreFiles opens the stores, also for
-// programs with a session, which read in steps and in threads of their own.
-// Inputs: folder of elevation cells, scene files; regions of scans and maps. Outputs: views of terrain and scene.
+// programs with a session, which read in steps and in own threads. Ground under the samples of the middle ray of each
+// sweep of a scan, lit or in shadow. Inputs: folder of elevation cells, scene files; regions of scans and maps;
+// positions of a scan's sweeps. Outputs: views of terrain and scene; a RaySample for each sample of each sweep. Units:
+// as suffixes of names say; positions are WGS84.
 // Errors: the functions throw Failure for files that cannot be opened, or a region whose files are all unreadable.
 // Threads: one call at a time. Any number of threads may read the views.
 #pragma once
@@ -9,13 +11,17 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lib/geo/geodesy.hpp"
+#include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
-#include "model/hrm/patch_data.hpp"
+#include "model/hrm/algorithm.hpp"
 #include "model/kernel/offline_scan.hpp"
+#include "model/kernel/sweep_chain.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 #include "model/terrain/store/cell_files.hpp"
@@ -108,5 +114,28 @@ class Theatre {
   std::string folder_;  // for messages
   TheatreStores stores_;
 };
+
+struct RadarConfiguration;
+
+// Fraction of full scale, far below noise: a smaller power counts as none.
+inline constexpr float kMinScanPower = 1e-8F;
+
+// One sample of the middle ray of a sweep: position on the exact geodesic, ground, lit or in shadow. The configured
+// algorithm computes `lit`. Beam, smears and number of rays do not change `lit`.
+struct RaySample {
+  double distance_m = 0.0;         // [m] ground range; NaN: no ground at the sample's slant range
+  geo::GeoPoint position;          // the aircraft's position where distance_m is NaN
+  model::terrain::Surface ground;  // void where distance_m is NaN
+  bool lit = false;                // false: in shadow, void or not loaded
+  // True: power above kMinScanPower, seen with a beam nearly 180 deg wide in elevation. Rain also gives power to
+  // samples in shadow.
+  bool returns = false;
+};
+
+// Samples of all sweeps: sweep after sweep, from near to far. Calls `goes_on` between sweeps; if it returns false,
+// throws parallel::Stopped.
+std::vector<RaySample> ray_samples(const RadarConfiguration& configuration,
+                                   std::span<const model::kernel::SweepHeader> positions,
+                                   const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on = {});
 
 }  // namespace yars::radar

@@ -9,10 +9,8 @@
 
 #include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
-#include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
 #include "runtime/option_text.hpp"
-#include "runtime/usage_message.hpp"
 #include "runtime/user_defaults.hpp"
 
 namespace yars::runtime {

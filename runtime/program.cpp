@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "databuffer/session/session.hpp"
-#include "lib/file/file_search.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "runtime/process.hpp"

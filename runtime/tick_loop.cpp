@@ -9,7 +9,7 @@
 #include <ctime>
 #include <string>
 
-#include "databuffer/session/validated.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "lib/error/error.hpp"
 #include "lib/text/plain_text.hpp"
 #include "runtime/process.hpp"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lib/file/text_file.hpp"
-#include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::runtime {

@@ -137,7 +137,7 @@ SYSTEM_HEADERS = {
     "ogr_srs_api.h": ["model/terrain/gdal", "tests"],
     "boost/": ["shm", "station/app", "tests"],
     "epoxy/": ["display/gl", "examples", "tests"],
-    "dlfcn.h": ["display/gl/context.cpp", "lib/file/file_search.cpp", "model/terrain/gdal/gdal_library.cpp"],
+    "dlfcn.h": ["display/gl/context.cpp", "lib/file/text_file.cpp", "model/terrain/gdal/gdal_library.cpp"],
     "EGL/": ["display/gl"],
     "glm/": ["lib/geo", "lib/radar", "model/scene/openflight"],
     "xxhash.h": ["model/kernel", "databuffer/messages", "radar", "python/core"],

@@ -15,7 +15,6 @@
 #include "lib/text/plain_text.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/maps.hpp"
-#include "statemachine/picture_plane.hpp"
 
 namespace yars::statemachine {
 

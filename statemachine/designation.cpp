@@ -11,7 +11,7 @@
 #include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
-#include "statemachine/picture_plane.hpp"
+#include "statemachine/maps.hpp"
 
 namespace yars::statemachine {
 

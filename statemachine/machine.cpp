@@ -12,7 +12,6 @@
 #include "statemachine/cursor.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/maps.hpp"
-#include "statemachine/modes.hpp"
 #include "statemachine/navigation_errors.hpp"
 #include "statemachine/settings.hpp"
 #include "statemachine/transition_table.hpp"

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "lib/radar/mapping.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/sensor.hpp"
 #include "lib/text/plain_text.hpp"

@@ -1,4 +1,6 @@
-// Actions on settings: range, scan width, window, antenna elevation, gain, brightness, contrast, switches.
+// Actions on power, master mode, radar mode and main menu, and on settings: range, scan width, window, antenna
+// elevation, gain, brightness, contrast, switches.
+// Source: docs/pilots_manual.md#rule-18, #rule-20, #rule-21, #rule-23.
 #pragma once
 
 #include <cstddef>
@@ -46,5 +48,19 @@ void next_channel(Step& step);      // 1 to 8, then 1
 void next_band(Step& step);         // A to E, then A
 void select_navigator(Step& step);  // mission navigator, INS, or toggle
 void switch_altimeter(Step& step);  // radar altimeter: working or failed
+
+void switch_power(Step& step);
+void next_mode(Step& step);      // PB 6: cycles RBM, HRM, BCN (beacons), PVU
+void select_mode(Step& step);    // hands-on control: selects RBM, HRM, BCN or PVU
+void leave_patch(Step& step);    // back to the HRM PPI; keeps the range
+void select_master(Step& step);  // A/G resumes its last mode
+void open_menu(Step& step);
+void close_menu(Step& step);
+
+// Enters the patch mode, after a commanded map is complete.
+void enter_patch(databuffer::RadarState& state);
+
+// State with the settings of power-up (docs/pilots_manual.md#power-up). Power is off.
+databuffer::RadarState power_up_settings(const Parameters& parameters);
 
 }  // namespace yars::statemachine

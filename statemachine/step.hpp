@@ -18,7 +18,7 @@
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
 #include "lib/geo/geodesy.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 

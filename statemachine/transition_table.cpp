@@ -10,7 +10,6 @@
 #include "statemachine/cursor.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/maps.hpp"
-#include "statemachine/modes.hpp"
 #include "statemachine/navigation_errors.hpp"
 #include "statemachine/settings.hpp"
 

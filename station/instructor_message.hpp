@@ -1,23 +1,57 @@
-// Commands of the instructor's page: the clock, the aircraft, the world, roles, recordings.
-// Inputs: an object of JSON with "do", the name of a command, its arguments, and "id", a number for the answer.
-// Outputs: the command with checked arguments.
-// Errors: an unknown command, an argument that is absent or out of range; each says what was expected.
-// Source: docs/station.md#commands.
+// Commands of the instructor's page: clock, aircraft, world (sea, wind, entries of its lists, fidelity), roles,
+// recordings. Removed entries of the world, which the page can bring back. Inputs: an object of JSON with "do", the
+// name of a command, its arguments, and "id", a number for the answer; the world before and after a change.
+// Outputs: the command with checked arguments; a change of the world, for change_world(); a world with a removed entry
+// as it was. Errors: an unknown command, an argument that is absent or out of range; each says what was expected. When
+// a change is made: a value out of range, an unknown id, an entry not removed or forgotten; those of world::restore().
+// Threads: one for RemovedEntries; any for the functions.
+// Source: docs/station.md#commands; names, units and limits of the world: lib/values/world_state.idl.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
+#include "databuffer/messages/world_state.hpp"
 #include "lib/error/error.hpp"
 #include "lib/geo/geodesy.hpp"
-#include "station/world_message.hpp"
 #include "world/world_edit.hpp"
 
 namespace yars::station {
+
+class RemovedEntries {
+ public:
+  static constexpr std::size_t kMaxEntries = 512;  // of all lists; a world has at most 400
+
+  // Remembers the entries of `before` that `after` lacks.
+  void note(const databuffer::WorldState& before, const databuffer::WorldState& after);
+  // Adds a removed entry to the world, with its id and all its values. A mover has gone on meanwhile.
+  error::Expected<void> restore(databuffer::WorldState& world, world::WorldList list, std::uint32_t id) const;
+
+ private:
+  std::deque<world::WorldEntry> entries_;  // the newest first
+};
+
+// Makes the world after the change from the world before it and the sim time.
+using WorldEdit =
+    std::function<error::Expected<databuffer::WorldState>(databuffer::WorldState world, std::int64_t sim_time_ns)>;
+
+// nullopt: the name is not that of a command of the world.
+std::optional<error::Expected<WorldEdit>> world_edit(std::string_view command, const nlohmann::json& object);
+
+// List that an object names; nullopt: none of world_lists().
+std::optional<world::WorldList> world_list(const nlohmann::json& object, const char* name);
+// Names of the lists, for messages.
+std::string world_lists();
+
+// Names of the commands, for messages.
+std::string_view world_commands();
 
 struct SetRunning {
   bool running;

@@ -16,12 +16,10 @@
 #ifdef YARS_HAS_GATEWAY
 #include "gateway/checks/network_check.hpp"
 #endif
-#include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
-#include "tools/command/output.hpp"
 
 namespace yars::tools {
 namespace {

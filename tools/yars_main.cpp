@@ -1,7 +1,7 @@
 // Main program of the `yars` command. The callback of the selected subcommand runs during app.parse().
 // Exit codes: docs/commands.md#exit-codes.
 
-#include "radar/failure.hpp"
+#include "radar/limits.hpp"
 #include "runtime/process.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/command.hpp"

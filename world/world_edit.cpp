@@ -10,7 +10,7 @@
 
 #include "databuffer/messages/inspection.hpp"
 #include "lib/radar/fidelity.hpp"
-#include "lib/radar/route.hpp"
+#include "lib/radar/modes.hpp"
 #include "lib/radar/world.hpp"
 #include "lib/text/plain_text.hpp"
 #include "lib/values/fields.hpp"

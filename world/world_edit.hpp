@@ -3,7 +3,7 @@
 // Units: those of the record. Messages name limits in the units in which people give values: NM, ft, kt, deg.
 // Errors: a value out of range, an unknown id, a full list, a name that another sequence point has. The world then
 //   stays as it was.
-// Use: inside databuffer::change_world() (session_world.hpp), so that no edit of another program is lost.
+// Use: inside databuffer::change_world() (session_changes.hpp), so that no edit of another program is lost.
 // Source: limits and defaults are those of lib/values/world_state.idl.
 #pragma once
 

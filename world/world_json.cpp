@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "databuffer/messages/world_lists.hpp"
-#include "lib/radar/route.hpp"
+#include "lib/radar/modes.hpp"
 #include "lib/radar/world.hpp"
 #include "lib/text/plain_text.hpp"
 #include "lib/values/fields.hpp"

@@ -1,4 +1,4 @@
-/* Grammar of GUF: forms, slots, lists. The grammar builds the tree of config/guf/tree.hpp. */
+/* Grammar of GUF: forms, slots, lists. The grammar builds the tree of config/guf/parser.hpp. */
 %skeleton "lalr1.cc"
 %require "3.8"
 %language "c++"

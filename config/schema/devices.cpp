@@ -8,7 +8,7 @@
 #include <cmath>
 #include <span>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/schema.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "lib/radar/devices.hpp"

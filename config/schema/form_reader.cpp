@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "config/guf/parser.hpp"
-#include "config/guf/tree.hpp"
 #include "config/schema/slot_value.hpp"
 #include "lib/text/plain_text.hpp"
 

@@ -1,7 +1,7 @@
 // Reader: writes the values of a configuration's syntax tree into a ConfigurationBuilder, by the table of schema.hpp.
 // Inputs: the top-level arguments of the text, which must be forms.
 // Outputs: the builder; warnings for old spellings, unknown forms and slots, unused slots (validated, no effect), and
-// lists that do not fit together (paired_lists.hpp); notes about lists of forms that a later list replaces.
+// lists that do not fit together (slot_value.hpp); notes about lists of forms that a later list replaces.
 // Errors: ParseError with the location of the value.
 // Order: forms are read in the order of the text. A slot's value in a later form replaces its value in an earlier form.
 // A second value of a slot in one form is an error. The forms Devices, Materials and MgDbase, and slots such as
@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "config/guf/tree.hpp"
-#include "config/schema/paired_lists.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/schema.hpp"
+#include "config/schema/slot_value.hpp"
 
 namespace yars::config {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"

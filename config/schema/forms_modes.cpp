@@ -4,10 +4,9 @@
 #include <cstddef>
 #include <utility>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/fidelity.hpp"
-#include "lib/radar/mapping.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/sensor.hpp"
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/network.hpp"
-#include "lib/text/nearest_word.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::config {
 

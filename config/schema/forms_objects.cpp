@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/list_forms.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/world.hpp"

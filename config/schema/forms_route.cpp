@@ -5,11 +5,10 @@
 #include <limits>
 #include <vector>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
-#include "lib/radar/route.hpp"
 #include "lib/radar/velocity_beams.hpp"
 
 namespace yars::config {

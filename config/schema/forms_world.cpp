@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/list_forms.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/world.hpp"

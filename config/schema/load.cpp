@@ -9,14 +9,11 @@
 
 #include "config/guf/messages.hpp"
 #include "config/guf/parser.hpp"
-#include "config/guf/tree.hpp"
 #include "config/schema/form_reader.hpp"
 #include "config/schema/message_translation.hpp"
 #include "config/schema/schema.hpp"
-#include "lib/file/file_search.hpp"
 #include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
-#include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::config {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/network.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "config/guf/messages.hpp"
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/schema.hpp"
 
 namespace yars::config {

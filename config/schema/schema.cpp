@@ -7,10 +7,10 @@
 #include <memory>
 #include <utility>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/network.hpp"
-#include "lib/text/nearest_word.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::config {
 

@@ -247,7 +247,7 @@ struct Found {
 Found<FormSchema> find_form(std::string_view name);
 Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name);
 
-// The name that a misspelled one most likely means (lib/text/nearest_word.hpp); empty: none is near.
+// The name that a misspelled one most likely means (lib/text/plain_text.hpp); empty: none is near.
 std::string nearest_slot(const FormSchema& form, std::string_view name);
 std::string nearest_form(std::string_view name);
 // The first form with a slot of this name; empty: no form has one.

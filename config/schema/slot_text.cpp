@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "config/guf/tree.hpp"
+#include "config/guf/parser.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/devices.hpp"
 #include "lib/radar/network.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "databuffer/messages/inspection.hpp"
-#include "databuffer/session/validated.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {

@@ -1,18 +1,23 @@
-// Values derived from records: ground track, navigator's position, radar command, map timer. Remedies of silent parts.
-// Inputs: Ownship, Nav, RadarState and ModelStatus, all validated.
+// Values derived from records: ground track, navigator's position, radar command, map timer, remedies of silent parts.
+// Hashes of pictures (XXH3, 64 bits), by which a reader recognizes equal, damaged and torn ones.
+// Inputs: Ownship, Nav, RadarState and ModelStatus, all validated; a sweep; a patch map with its pixels.
 // Frame: WGS84 positions, true bearings.
 // Threads: pure functions.
+// Source of the hashes: xxHash, https://github.com/Cyan4973/xxHash, XXH3_64bits.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/pictures.hpp"
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/gimbal.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/sensor.hpp"
 
 namespace yars::radar {
 
@@ -67,5 +72,13 @@ RadarCommand command_from_state(const RadarState& state);
 // HRM PPI or patch, the cursor function is MAP, a window is selected, and a map can be commanded at the cursor.
 // nullopt: the display shows no timer.
 std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& model);
+
+// Hash of apex, altitude, edges, ground track, antenna elevation and range. It seeds the hash over the video samples in
+// use, which is the result.
+std::uint64_t sweep_hash(const Sweep& sweep);
+
+// Hash of a patch map's pixels. The seed is the hash of the map's twelve geometry fields. Ids and ticks are not hashed,
+// so equal maps have equal hashes.
+std::uint64_t map_hash(const PatchMap& map, std::span<const std::uint8_t> pixels);
 
 }  // namespace yars::databuffer

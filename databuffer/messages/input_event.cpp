@@ -8,7 +8,6 @@
 
 #include "databuffer/messages/validation.hpp"
 #include "lib/radar/modes.hpp"
-#include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {

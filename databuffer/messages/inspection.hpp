@@ -1,4 +1,6 @@
 // Checks of single fields of a record. The first fault is kept as text.
+// Limit of the session's clock that users meet: commands, forms and pages check against it.
+// Source of the limit: ClockState::rate in world_state.idl, whose range is the same.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +18,8 @@
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
+
+inline constexpr double kMaxClockRate = 10.0;  // sim time / real time; at higher rates programs skip late ticks
 
 // Reason to refuse a record: the first fault as "FIELD: expected ..., found ...". nullopt: the record is valid.
 using Refusal = std::optional<std::string>;

@@ -11,7 +11,6 @@
 #include "databuffer/messages/record_checks.hpp"
 #include "databuffer/messages/world_lists.hpp"
 #include "lib/radar/modes.hpp"
-#include "lib/radar/route.hpp"
 #include "lib/text/plain_text.hpp"
 
 // check_fields() is generated from the ranges in the IDL. This file checks the fields whose range applies only under a

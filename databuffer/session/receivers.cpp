@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "databuffer/messages/validation.hpp"
-#include "lib/geo/earth.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/text/plain_text.hpp"
 

@@ -17,7 +17,6 @@
 #include "databuffer/messages/pictures.hpp"
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
-#include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
 #include "shm/ring_buffers.hpp"
 #include "shm/segment.hpp"

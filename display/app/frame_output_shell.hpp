@@ -13,7 +13,7 @@
 #include <string>
 
 #include "databuffer/session/session.hpp"
-#include "display/gl/framebuffer.hpp"
+#include "display/gl/gpu_objects.hpp"
 #include "display/host/display.hpp"
 #include "lib/error/error.hpp"
 #include "lib/file/folder.hpp"

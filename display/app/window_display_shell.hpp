@@ -11,7 +11,7 @@
 #include "display/gl/context.hpp"
 #include "display/host/display.hpp"
 #include "display/host/session_link_shell.hpp"
-#include "display/symbology/mouse.hpp"
+#include "display/symbology/bezel.hpp"
 
 namespace yars::display {
 

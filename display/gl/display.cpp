@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "display/gl/damage.hpp"
-#include "display/gl/framebuffer.hpp"
+#include "display/gl/gpu_objects.hpp"
 #include "display/gl/passes.hpp"
-#include "display/gl/shaders.hpp"
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"

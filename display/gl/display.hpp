@@ -12,7 +12,7 @@
 
 #include "databuffer/messages/model_records.hpp"
 #include "display/gl/damage.hpp"
-#include "display/gl/framebuffer.hpp"
+#include "display/gl/gpu_objects.hpp"
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/symbology.hpp"

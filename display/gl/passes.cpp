@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "display/gl/shaders.hpp"
+#include "display/gl/gpu_objects.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::display::gl {
@@ -365,6 +365,10 @@ void OverlayPass::draw(const DrawList& list, const ColorScheme& colors, const st
     add_strokes(content.strokes, colors, false, target);
   }
   if (!instance_data_.empty()) flush(target);
+}
+
+void PanelPass::draw(const DrawList& list, const ColorScheme& colors, const OverlayPass::Target& target) {
+  overlay_.draw(list, colors, {}, target);
 }
 
 }  // namespace yars::display::gl

@@ -1,5 +1,6 @@
-// Render passes of a picture: stored sweeps, patch map, draw list.
-// Inputs: PolarStore and wedges, pixels of patch maps, DrawList, light table (light 0..1 of each video level).
+// Render passes of a picture (stored sweeps, patch map, draw list) and of its surround (bezel, tooltip, notice).
+// Inputs: PolarStore and wedges, pixels of patch maps, DrawList, light table (light 0..1 of each video level); for the
+//   surround a draw list in panel units (display/symbology/bezel.hpp).
 // Outputs: draws into the current framebuffer.
 // Units: sizes in pixels, positions in display units (draw_list.hpp).
 // Threads: objects need a current OpenGL context for their lifetime.
@@ -11,7 +12,7 @@
 #include <vector>
 
 #include "display/gl/damage.hpp"
-#include "display/gl/shaders.hpp"
+#include "display/gl/gpu_objects.hpp"
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"
@@ -117,6 +118,15 @@ class OverlayPass {
   std::uint32_t vertex_array_ = 0, instances_ = 0;
   int scale_location_ = 0, edge_location_ = 0, corner_location_ = 0;
   std::vector<float> instance_data_;
+};
+
+class PanelPass {
+ public:
+  // Draws the list into the target, over what is there.
+  void draw(const DrawList& list, const ColorScheme& colors, const OverlayPass::Target& target);
+
+ private:
+  OverlayPass overlay_;
 };
 
 }  // namespace yars::display::gl

@@ -11,13 +11,13 @@
 #include "display/gl/context.hpp"
 #include "display/gl/damage.hpp"
 #include "display/gl/display.hpp"
-#include "display/gl/framebuffer.hpp"
+#include "display/gl/gpu_objects.hpp"
 #include "display/gl/host_state_guard.hpp"
-#include "display/gl/panel.hpp"
+#include "display/gl/passes.hpp"
 #include "display/host/session_link_shell.hpp"
 #include "display/symbology/bezel.hpp"
-#include "display/symbology/help.hpp"
-#include "lib/file/file_search.hpp"
+#include "display/symbology/overlay_texts.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::display::host {

@@ -14,7 +14,7 @@
 #include <memory>
 #include <string>
 
-#include "display/gl/framebuffer.hpp"
+#include "display/gl/gpu_objects.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "lib/error/error.hpp"
 #include "lib/imageio/png.hpp"
@@ -101,7 +101,7 @@ class Display {
 
   // The last painted picture as RGB. Waits for the GPU.
   imageio::Image read() const;
-  // Asynchronous readback of the picture with its time (Readback in display/gl/framebuffer.hpp).
+  // Asynchronous readback of the picture with its time (Readback in display/gl/gpu_objects.hpp).
   // start_reading returns false if two copies are pending. take_read returns false if no copy is ready or the driver
   // failed. wait_for_read waits for a pending copy, at most 10 s; false: none was pending, or the driver failed.
   bool start_reading();

@@ -16,10 +16,9 @@
 #include "databuffer/messages/key_map.hpp"
 #include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
 #include "display/gl/context.hpp"
 #include "display/symbology/plan_view.hpp"
-#include "runtime/pilot_link.hpp"
+#include "runtime/claims.hpp"
 
 namespace yars::display {
 

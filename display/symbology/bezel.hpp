@@ -1,15 +1,19 @@
-// The MPD's bezel with its twenty buttons around the picture, tooltips and notices of the window.
-// Inputs: DisplayInput for the words of a tooltip; a position of the mouse.
-// Outputs: a draw list in panel units; the button or the position on the picture under the mouse.
+// The MPD's bezel with its twenty buttons around the picture, tooltips and notices of the window; the mouse on this
+// panel as the pilot's hands: a click on a button presses it, a click on the map designates.
+// Inputs: DisplayInput for the words of a tooltip; presses, releases and positions of the mouse on the panel; whether
+//   the display shows a cursor.
+// Outputs: a draw list in panel units; the button or the position on the picture under the mouse; input events. Their
+//   times and sequence number are zero.
 // Units: panel units. One panel unit is one display unit; origin upper left of the panel, x right, y down. The
-// picture's
-//   upper left corner lies at (border, border).
-// Source: docs/pilots_manual.md#bezel
+//   picture's upper left corner lies at (border, border).
+// Source: docs/pilots_manual.md#bezel, docs/pilots_manual.md#mouse
 #pragma once
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
+#include "databuffer/messages/input_event.hpp"
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/plan_view.hpp"
 
@@ -38,5 +42,23 @@ void draw_tooltip(const PanelLayout& layout, const DisplayInput& input, int butt
 
 // Draws a line of text in the upper part of the picture.
 void draw_notice(const PanelLayout& layout, std::string_view words, DrawList& list);
+
+enum class MouseButton { left, right };
+
+// A press of the left button on the map moves the cursor there, and the cursor then follows the mouse. The release
+// releases the TDC's switch; off the map it designates nothing. The right button only moves the cursor. Without a
+// button the mouse moves nothing, so that a touch of the mouse does not disturb a pilot who uses keys or a stick.
+class Mouse {
+ public:
+  std::vector<databuffer::InputEvent> press(const PanelLayout& layout, MouseButton button, Point at, bool takes_cursor);
+  std::vector<databuffer::InputEvent> release(const PanelLayout& layout, MouseButton button, Point at);
+  // The mouse is at this position. One event at most: call it once for each redraw.
+  std::vector<databuffer::InputEvent> move(const PanelLayout& layout, Point at);
+  void cancel() { held_.reset(); }  // the window lost the focus: the release designates nothing
+
+ private:
+  std::optional<MouseButton> held_;  // button that was pressed on the map
+  Point last_;                       // position of the last cursor event
+};
 
 }  // namespace yars::display

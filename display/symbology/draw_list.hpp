@@ -1,6 +1,6 @@
 // Draw list of the display: line segments, filled rectangles and video steps, in layers, without OpenGL.
 // Inputs: drawing calls in display units.
-// Outputs: plain data by layer; boxes occupied by texts, scales and symbols, which label_layout.hpp reads.
+// Outputs: plain data by layer; boxes occupied by texts, scales and symbols, which text_layout.hpp reads.
 // Units: display units. The display is a square with an edge of 480 units. Origin upper left, x right, y down.
 // Accuracy: coordinates of strokes and occupied boxes are rounded to 1/8 unit, so that the list usually stays equal
 //   during a motion that is too small to see.
@@ -130,7 +130,7 @@ struct LayerContent {
   friend bool operator==(const LayerContent&, const LayerContent&) = default;
 };
 
-// Kind of an occupied box. Texts and scales have fixed positions. label_layout.hpp chooses the positions of labels.
+// Kind of an occupied box. Texts and scales have fixed positions. text_layout.hpp chooses the positions of labels.
 // Points and the cursor are drawn at their ground positions. Leader lines of labels may cross a `scale`; they avoid a
 // `solid` scale.
 enum class BoxKind : std::uint8_t { text, label, scale, solid, point, cursor };

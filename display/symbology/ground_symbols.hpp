@@ -1,7 +1,7 @@
 // Ground symbols: cursor, sequence points with their names, window outline of a map, and pattern steering line (PSL), a
 // line that shows from which direction the target is approached.
 // Inputs: DisplayInput, view and frame (plan_view.hpp), labels of the last picture.
-// Outputs: strokes and occupied boxes in a draw list; labels for label_layout.hpp.
+// Outputs: strokes and occupied boxes in a draw list; labels for text_layout.hpp.
 // Frame: the cursor is drawn at its true ground position, as is the video. Points and target are displaced from their
 // true positions by the position error of the selected navigator.
 // Source: docs/pilots_manual.md#symbology
@@ -12,8 +12,8 @@
 #include <optional>
 
 #include "display/symbology/draw_list.hpp"
-#include "display/symbology/label_layout.hpp"
 #include "display/symbology/plan_view.hpp"
+#include "display/symbology/text_layout.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::display {

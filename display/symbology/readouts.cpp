@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "display/symbology/text_lines.hpp"
+#include "display/symbology/text_layout.hpp"
 #include "lib/error/error.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"

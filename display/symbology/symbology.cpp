@@ -6,9 +6,8 @@
 #include <cstddef>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "display/symbology/caption.hpp"
 #include "display/symbology/ground_symbols.hpp"
-#include "display/symbology/help.hpp"
+#include "display/symbology/overlay_texts.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"
 #include "display/symbology/readouts.hpp"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "display/symbology/draw_list.hpp"
-#include "display/symbology/label_layout.hpp"
 #include "display/symbology/plan_view.hpp"
+#include "display/symbology/text_layout.hpp"
 
 namespace yars::radar {
 struct ViewConfiguration;

@@ -2,7 +2,7 @@
 // Sources: a route, a fixed course, a recorded track, or an external program.
 
 #include "flightmodel/app/flight_shell.hpp"
-#include "lib/file/file_search.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "runtime/program.hpp"

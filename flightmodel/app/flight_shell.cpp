@@ -8,7 +8,6 @@
 #include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/receivers.hpp"
-#include "databuffer/session/validated.hpp"
 #include "flightmodel/bridges/dis.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"

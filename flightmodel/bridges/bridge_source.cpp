@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "flightmodel/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::flightmodel::bridges {

@@ -16,7 +16,6 @@
 #include "databuffer/messages/network_status.hpp"
 #include "gateway/dds/instance_quota.hpp"
 #include "gateway/dds/participants.hpp"
-#include "gateway/dds/senders.hpp"
 #include "gateway/dds/topics.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/network.hpp"

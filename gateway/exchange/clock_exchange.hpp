@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "databuffer/messages/world_state.hpp"
-#include "databuffer/session/clock_changes.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "gateway/exchange/context.hpp"
 
 namespace yars::gateway {

@@ -13,8 +13,8 @@
 #include <string>
 #include <utility>
 
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
 #include "gateway/dds/link.hpp"
 #include "gateway/exchange/hosts.hpp"
 #include "lib/log/log.hpp"

@@ -15,11 +15,9 @@
 #include <vector>
 
 #include "databuffer/session/session.hpp"
-#include "gateway/authority.hpp"
-#include "gateway/clock_offset.hpp"
 #include "gateway/dds/link.hpp"
-#include "gateway/host_id.hpp"
-#include "gateway/sample_numbers.hpp"
+#include "gateway/host_agreement.hpp"
+#include "gateway/sample_reception.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 

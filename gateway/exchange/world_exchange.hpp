@@ -7,7 +7,7 @@
 // Source: docs/network.md#the-world.
 #pragma once
 
-#include "databuffer/session/session_world.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"
 

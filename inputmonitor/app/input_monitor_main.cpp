@@ -3,7 +3,6 @@
 #include "config/schema/devices.hpp"
 #include "config/schema/load.hpp"
 #include "inputmonitor/app/input_monitor_shell.hpp"
-#include "inputmonitor/app/learning_shell.hpp"
 #include "inputmonitor/source_choice.hpp"
 #include "lib/log/log.hpp"
 #include "runtime/program.hpp"

@@ -1,21 +1,27 @@
-// Shell of input-monitor in a session: feeds the events of a source into an input lane.
-// Inputs: an EventSource.
-// Outputs: events in an input lane; the caption of a tour. A live session's log says why an event of this source was
-// without effect or refused, and what to do.
-// Time stamps: an event in the lane has the sim time [ns] and the CLOCK_MONOTONIC time [ns] at which it was taken from
-// its source, and a sequence number.
-// Errors: an event for a full lane is dropped. The drop is written to the log and to the session's flight recorder.
+// Shell of input-monitor: feeds the events of a source into an input lane of a session. Without a session (--learn) it
+// reads the device and the keyboard, shows the dialogue (Learning), and writes the map as GUF.
+// Inputs: an EventSource. Of --learn: a device, a FIFO or a file; keys on standard input, without echo on a terminal.
+// Outputs: events in an input lane, with sim time [ns] and CLOCK_MONOTONIC time [ns] at which each was taken from its
+//   source, and a sequence number; the caption of a tour. A live session's log says why an event was without effect or
+//   refused, and what to do. Of --learn: the dialogue on standard error; the map in `file`, on standard output if that
+//   is empty.
+// Errors: an event for a full lane is dropped, which log and flight recorder note. Of --learn: the device cannot be
+//   read; no control was learned; the file cannot be written, then the map goes to standard output; the device was
+//   disconnected, and nobody can type that it is to be waited for.
+// Source of --learn: docs/hardware.md#learning-a-map
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
 #include "inputmonitor/event_source.hpp"
+#include "lib/error/error.hpp"
 #include "runtime/tick_loop.hpp"
 
 namespace yars::inputmonitor {
@@ -51,5 +57,8 @@ class InputMonitorShell {
   databuffer::Validated<databuffer::PilotAdvice> advice_;
   std::uint64_t idle_count_ = 0;  // PilotAdvice::idle_count that was reported last
 };
+
+// `session`: name for the commands that the dialogue advises at its end.
+error::Expected<void> learn_device(const std::string& path, const std::string& file, const std::string& session);
 
 }  // namespace yars::inputmonitor

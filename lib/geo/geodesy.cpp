@@ -11,8 +11,6 @@
 #include <limits>
 #include <new>
 
-#include "lib/geo/earth.hpp"
-
 namespace yars::geo {
 
 namespace {

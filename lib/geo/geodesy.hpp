@@ -1,10 +1,12 @@
-// Geodesy on WGS84: geodesics, azimuthal equidistant projection, magnetic variation, height of mean sea level.
+// Geodesy on WGS84: geodesics, azimuthal equidistant projection, magnetic variation, height of mean sea level; size of
+// the Earth, for approximations on a sphere.
 // Inputs: latitude and longitude in degrees; azimuths, distances and heights as types of quantity.hpp.
 // Outputs: positions, distances, azimuths; plane points in metres; magnetic variation in degrees.
 // Frame: transforms are named target-from-source; docs/conventions.md fixes axes, zeros and signs.
 // Accuracy: 15 nanometres for geodesics; 1 mm for GeodesicSeries up to the range for which its order was chosen.
 // Threads: no shared mutable state.
-// Source: Karney 2013, "Algorithms for geodesics", J. Geodesy 87, 43-55; library GeographicLib.
+// Source: Karney 2013, "Algorithms for geodesics", J. Geodesy 87, 43-55; library GeographicLib; NIMA TR8350.2, WGS84
+//   (semi-major axis a = 6,378,137 m, flattening f: 1/f = 298.257223563).
 #pragma once
 
 #include <array>
@@ -15,6 +17,22 @@
 #include "lib/geo/quantity.hpp"
 
 namespace yars::geo {
+
+// [m] Mean radius (2a + b) / 3; b is the semi-minor axis. It differs by less than 0.6 % from every radius of curvature
+// of the ellipsoid.
+// A change of this value changes every picture that uses the spherical approximation.
+inline constexpr double kMeanEarthRadius_m = 6'371'008.8;
+
+// [m] Arc of one degree on the sphere of mean radius, rounded to 1 m. One degree of latitude on the ellipsoid differs
+// from this length by less than 0.6 %, at every latitude.
+inline constexpr double kMetresPerDegree = 111'195.0;
+
+// [m] Bounds, rounded outwards, of the length of one degree of latitude on the ellipsoid. This length is 110,574 m at
+// the equator and 111,693.98 m at a pole.
+// The distance of two points [m] / kMinMetresPerDegree is an upper bound of their difference in latitude [deg].
+// A difference in latitude [deg] x kMaxMetresPerDegree is an upper bound of the distance along a meridian [m].
+inline constexpr double kMinMetresPerDegree = 110'500.0;
+inline constexpr double kMaxMetresPerDegree = 111'694.0;
 
 // Position on the ellipsoid WGS84: geodetic latitude [-90, 90] and longitude [-180, 180], in degrees.
 struct GeoPoint {

@@ -1,14 +1,19 @@
-// Modes and switch positions with their numbers in records, sizes of arrays in records, names of sequence points.
-// Abbreviations: docs/glossary.md#cockpit.
-// Inputs: a number from a record, or the name of a sequence point.
-// Outputs: texts for legends; the number and offset in a sequence point's name; the order of the names.
+// Modes and switch positions with their numbers in records, sizes of arrays in records, names of sequence points; rules
+// of a route of such points: which names go together, the kind of a name, and initial points.
+// Inputs: a number from a record; the name of a sequence point; names of points and their kinds.
+// Outputs: texts for legends; the number and offset in a sequence point's name; the order of the names; kinds,
+//   conflicts, the position of an initial point.
 // Errors: "?" for a number outside its enumeration; std::nullopt for a text that is no name of a sequence point.
 // Compatibility: a changed enumerator changes the meaning of records. A changed size changes the layout of the segment
 // and of recordings.
+// Source: docs/pilots_manual.md#rule-11. Abbreviations: docs/glossary.md#cockpit.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -88,5 +93,28 @@ std::string text_of(const PointName& name);
 // True if `left` comes before `right` when the pilot steps through the points: by number, a point before its offsets.
 // Texts that are no names come last, in alphabetical order.
 bool precedes(std::string_view left, std::string_view right);
+
+// Words for the kinds, in the order of PointKind.
+inline constexpr std::array<std::string_view, 5> kPointKindNames{"steer", "initial", "target", "steer-offset",
+                                                                 "target-offset"};
+
+struct NamedPoint {
+  PointName name;
+  PointKind kind = PointKind::steer;
+};
+
+// Kind of a point that has this name and no stated kind. A steer point may become an initial point.
+PointKind kind_by_name(const PointName& name);
+
+// True if a point with this name can be of this kind: the one of kind_by_name(), or initial instead of steer.
+bool is_kind_of(PointKind kind, const PointName& name);
+
+// Point of the route because of which a new point cannot have this name: it has the name already, or both are no
+// offsets and have the same number. nullptr: the name is free.
+const NamedPoint* conflict(const PointName& name, std::span<const NamedPoint> route);
+
+// Index of the point that becomes the initial point of a target with this number: the last steer point between the
+// target before it and the target, by number. nullopt: there is none, or an initial point lies between them.
+std::optional<std::size_t> initial_point_before(int target_number, std::span<const NamedPoint> route);
 
 }  // namespace yars::radar

@@ -1,10 +1,14 @@
-// Configuration of the sensor: antenna, receiver, patch maps and Doppler beam sharpening.
+// Configuration of the sensor: antenna, receiver, patch maps and Doppler beam sharpening. Directions in airframe axes,
+// and the limits of the antenna's gimbal.
 // config/schema reads the values from GUF files. The defaults are those of the APG-70.
+// Inputs of directions: attitude of the aircraft; true azimuth and elevation above the horizontal.
 // Units: as the suffix of each name says.
-// Source: docs/spec/physics.md#power-and-video, docs/spec/physics.md#hrm.
+// Source: docs/spec/physics.md#power-and-video, docs/spec/physics.md#hrm, docs/pilots_manual.md#rule-2.
 #pragma once
 
 #include <vector>
+
+#include "lib/geo/quantity.hpp"
 
 namespace yars::radar {
 
@@ -52,5 +56,25 @@ struct HighResolutionConfiguration {
   int default_material = 2;            // material code of scene faces without one; 2 = part metal
   double detail_contrast = 0.5;        // standard deviation of the natural logarithm of the ground texture's factor
 };
+
+// Attitude and ground track of the aircraft. Heading and track are true. Pitch is positive with the nose up, roll with
+// the right wing down.
+struct Platform {
+  geo::Bearing heading;
+  geo::Angle pitch;
+  geo::Angle roll;
+  geo::Bearing ground_track;  // equals the heading at ground speeds below 1 m/s
+};
+
+struct GimbalAngles {
+  geo::Angle azimuth;    // positive right of the nose
+  geo::Angle elevation;  // positive above the wing plane
+};
+// Rotates a direction (true azimuth, elevation above the horizontal) into airframe axes.
+GimbalAngles gimbal_from_space(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
+
+// True if the direction is within the gimbal limits plus the servo's tolerance. A circular scan has no azimuth limit.
+bool within_gimbal(const Platform& platform, const AntennaConfiguration& antenna, geo::Bearing azimuth,
+                   geo::Angle elevation);
 
 }  // namespace yars::radar

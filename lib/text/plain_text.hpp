@@ -1,7 +1,11 @@
-// Plain text: escaping for terminals and logs; splitting into lines, words and fields; numbers.
+// Plain text: escaping for terminals and logs; splitting into lines, words and fields; numbers; the word of a list that
+// a misspelled word most likely means, for "did you mean" in messages.
 // Inputs: UTF-8 text from outside the program: file names, arguments, records, text files with one record a line.
-// Outputs: new strings, or views of the input. The input must outlive the views.
-// Errors: std::nullopt for text that is not a number. The other functions accept every text.
+// Outputs: new strings, or views of the input. The input must outlive the views. The nearest word is that by
+//   Damerau-Levenshtein distance: inserted, missing, wrong and transposed characters count 1 each; ASCII upper and
+//   lower case are equal.
+// Errors: std::nullopt for text that is not a number, or if no valid word is near enough. The other functions accept
+//   every text.
 #pragma once
 
 #include <charconv>
@@ -11,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -86,5 +91,15 @@ class DecimalPoint {
  private:
   locale_t before_;
 };
+
+// Damerau-Levenshtein distance: number of edits that lead from one word to the other. Case counts.
+int edit_distance(std::string_view from, std::string_view to);
+
+// The nearest of `valid`, at a distance of at most a third of the length of `word`. Of equally near words the first. If
+// none is near: the shortest that begins with a `word` of four characters or more, as status with stat.
+std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> valid);
+
+// "did you mean 'WORD'?" with the nearest valid word; empty if none is near enough.
+std::string did_you_mean(std::string_view word, std::span<const std::string> valid);
 
 }  // namespace yars::text

@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/gimbal.hpp"
+#include "lib/radar/sensor.hpp"
 
 namespace yars::radar {
 struct AntennaConfiguration;

@@ -5,10 +5,10 @@
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/app/radar_model_shell.hpp"
-#include "radar/failure.hpp"
+#include "radar/limits.hpp"
 #include "radar/theatre.hpp"
+#include "runtime/claims.hpp"
 #include "runtime/program.hpp"
-#include "runtime/role.hpp"
 
 namespace {
 

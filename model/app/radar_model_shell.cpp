@@ -8,13 +8,12 @@
 #include <utility>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/kernel/map_schedule.hpp"
 #include "model/kernel/tick_inputs.hpp"

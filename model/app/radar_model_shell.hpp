@@ -14,7 +14,6 @@
 
 #include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/world.hpp"
 #include "model/app/background_shell.hpp"

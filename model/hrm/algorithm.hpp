@@ -1,16 +1,102 @@
-// Interface of the patch map algorithms: the stages that each algorithm computes in its own way. PatchFormation calls
-// them in the order of declaration: the stages up to draw_pixels() for each sector, the others once a map.
-// Inputs: PatchInputs, and the members of PatchData that earlier stages filled. Outputs: further members of PatchData;
-// the last stage fills PatchData::picture.
+// Interface of the patch map algorithms: the stages that each computes in its own way, and the data that they read and
+// write. PatchFormation calls the stages in the order of declaration: up to draw_pixels() for each sector, then the
+// others once a map.
+// Inputs: PatchInputs (order, terrain, scene, traffic), and the members of PatchData that earlier stages filled: polar
+// grid, ground and horizons on the grid, image (power). The last stage fills PatchData::picture (video).
 // Ground without a known elevation (a void) returns no power.
-// Threads: one caller at a time; stages run on the executor's threads. Results have equal bits for any number of
-// threads.
-// Source: docs/radar_maths.md, "Patch maps".
+// Units: metres; heights above the map plane; horizons are tangents of elevation angles, positive above the aircraft's
+// horizontal plane; power as in map_image.hpp, but brightness 0 to 1 with the algorithm `report_1996`.
+// Threads: one caller at a time; stages run one after the other on the executor's threads, which write disjoint strips
+// or rows. Results have equal bits for any number of threads. Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
-#include "model/hrm/patch_data.hpp"
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lib/geo/quantity.hpp"
+#include "lib/memory/line_vector.hpp"
+#include "lib/parallel/thread_pool.hpp"
+#include "model/hrm/map_image.hpp"
+#include "model/hrm/patch_geometry.hpp"
+#include "model/hrm/polar_ground.hpp"
+#include "model/physics/environment.hpp"
+#include "model/scene/placement/scene_view.hpp"
+#include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::hrm {
+
+// Terrain, scene, movers and traffic of a map. The terrain views `window` (the map and its surroundings) and `path`
+// (from the aircraft to the map) cover the regions that patch_need() returns.
+struct PatchEnvironment {
+  terrain::TerrainViewPointer window;
+  terrain::TerrainViewPointer path;
+  scene::SceneViewPointer scene;  // null: no scene
+  std::vector<physics::MovingPoint> traffic{};
+  std::optional<std::vector<physics::MovingPoint>> movers{};  // nullopt: those of the configuration
+};
+
+// Inputs of a map, constant for all stages.
+struct PatchInputs {
+  PatchOrder order;
+  PatchEnvironment environment;
+  parallel::Executor executor;
+};
+
+// Array on the polar grid. It never shrinks, and growth discards its contents. Rows of a strip begin at cache lines.
+template <class Number>
+class PolarArray {
+ public:
+  void resize(std::size_t size) {
+    if (size <= numbers_.size()) return;
+    numbers_ = {};  // frees the old array before the new one is allocated
+    numbers_.resize(size);
+  }
+  Number* data() { return numbers_.data(); }
+  const Number* data() const { return numbers_.data(); }
+  std::size_t size() const { return numbers_.size(); }
+
+ private:
+  memory::CacheAlignedVector<Number> numbers_;
+};
+
+// Grid, ground and images of one map. The arrays are reused for the next sector and the next map.
+struct PatchData {
+  explicit PatchData(int pixels, LabelUse use = LabelUse::none) : image(pixels), labels(pixels, use) {}
+
+  // Crests between rows, as in GroundArrays::crest_m. Null if they are not computed.
+  const float* crests_m() const { return crests.any() ? crest_m.data() : nullptr; }
+
+  std::optional<PatchGeometry> geometry;  // nullopt until the first map has its inputs
+  geo::Duration formation{};              // time in which the synthetic array is formed
+  PolarGrid grid;                         // with the sector that is being computed
+  std::vector<int> sectors;               // as from sectors_of()
+  std::size_t points = 0;                 // entries of the arrays of the largest sector
+  std::vector<const scene::Tile*> tiles;  // scene tiles near the window
+  PolarArray<SurfacePoint> surface;       // by PolarGrid::at()
+  CrestsBetweenRows crests;               // kinds of crests to compute
+  PolarArray<float> crest_m;              // as in GroundArrays::crest_m; used if crests.any() is true
+  PolarArray<float> horizon;              // by column: greatest tangent of the ground nearer than the grid's row 0
+  MapImage image;
+  MapLabels labels;
+  std::vector<std::uint8_t> picture;  // 8-bit video, row 0 at the far edge
+};
+
+// Divides the strips of the sector into ranges and calls job(first, last, thread) for each range [first, last).
+template <class Job>
+void parallel_for_strips(const parallel::Executor& executor, const PolarGrid& grid, const Job& job) {
+  constexpr int kStripsPerTask = 2;
+  parallel::parallel_for(
+      executor, grid.end_strip - grid.first_strip, kStripsPerTask,
+      [&](int first, int last, std::size_t thread) { job(grid.first_strip + first, grid.first_strip + last, thread); });
+}
+
+// Divides the rows of the image into ranges and calls job(first, last, thread) for each range [first, last).
+template <class Job>
+void parallel_for_rows(const parallel::Executor& executor, const MapImage& image, const Job& job) {
+  constexpr int kRowsPerTask = 32;
+  parallel::parallel_for(executor, image.size, kRowsPerTask, job);
+}
 
 class Algorithm {
  public:

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/geo/quantity.hpp"
-#include "lib/random/gradient_noise.hpp"
+#include "lib/random/counter_rng.hpp"
 #include "model/hrm/polar_ground_simd.hpp"
 #include "model/physics/clutter.hpp"
 #include "model/terrain/sampling/height_simd.hpp"

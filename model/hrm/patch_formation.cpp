@@ -7,7 +7,7 @@
 
 #include "lib/error/error.hpp"
 #include "lib/radar/fidelity.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/sensor.hpp"
 #include "model/hrm/algorithm.hpp"
 #include "model/hrm/reference.hpp"

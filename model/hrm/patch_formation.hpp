@@ -20,9 +20,8 @@
 
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/fidelity.hpp"
+#include "model/hrm/algorithm.hpp"
 #include "model/hrm/map_image.hpp"
-#include "model/hrm/map_labels.hpp"
-#include "model/hrm/patch_data.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/physics/receiver.hpp"
 

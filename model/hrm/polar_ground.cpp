@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/hrm/map_labels.hpp"
+#include "model/hrm/map_image.hpp"
 #include "model/hrm/polar_ground_simd.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"

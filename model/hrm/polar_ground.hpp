@@ -50,7 +50,7 @@ struct GroundArrays {
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
   // over the crest passes this row. -1e6 without a crest. Null: not computed.
   float* crest_m = nullptr;
-  std::uint32_t* label = nullptr;  // surface label (map_labels.hpp) of the ground; null: not computed
+  std::uint32_t* label = nullptr;  // surface label (map_image.hpp) of the ground; null: not computed
 };
 
 // Sampler of terrain on the polar grid, reused from map to map.

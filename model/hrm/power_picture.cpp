@@ -5,7 +5,7 @@
 #include <span>
 
 #include "lib/radar/fidelity.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::hrm {

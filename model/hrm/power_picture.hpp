@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "lib/radar/sensor.hpp"
+#include "model/hrm/algorithm.hpp"
 #include "model/hrm/map_image.hpp"
-#include "model/hrm/patch_data.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/point_response.hpp"
 #include "model/physics/atmosphere.hpp"

@@ -47,7 +47,7 @@ struct Strip {
   WallPoint* walls = nullptr;  // cast_profile() sets them to zero after use; null: no walls
   float* power = nullptr;      // cross section [m^2] by apparent row and column; cast_profile() adds to it
 
-  // Labels by apparent row and column (map_labels.hpp). Null: no labels. On entry: strength and layers are 0.
+  // Labels by apparent row and column (map_image.hpp). Null: no labels. On entry: strength and layers are 0.
   float* strength = nullptr;          // greatest cross section [m^2] of one surface
   std::int32_t* shown_row = nullptr;  // row of the surface point with this cross section; undefined at strength 0
   std::int32_t* layers = nullptr;     // number of visible surfaces that appear at the middle of the row

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <span>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::model::hrm {
 

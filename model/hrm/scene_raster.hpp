@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/parallel/thread_pool.hpp"
-#include "model/hrm/patch_data.hpp"
+#include "model/hrm/algorithm.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/scene_raster_simd.hpp"
 #include "model/physics/receiver.hpp"

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "model/hrm/map_labels.hpp"
+#include "model/hrm/map_image.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/scene_vertices_simd.hpp"
 
@@ -23,7 +23,7 @@ namespace yars::model::hrm::simd {
 struct SceneArrays {
   SurfacePoint* surface = nullptr;  // on entry: the ground
   WallPoint* walls = nullptr;       // on entry: zeros
-  // Surface labels (map_labels.hpp) of `surface`; on entry: those of the ground. Null: not drawn.
+  // Surface labels (map_image.hpp) of `surface`; on entry: those of the ground. Null: not drawn.
   std::uint32_t* label = nullptr;
 };
 

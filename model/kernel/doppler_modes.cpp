@@ -7,7 +7,6 @@
 
 #include "lib/error/error.hpp"
 #include "lib/geo/frames.hpp"
-#include "lib/radar/mapping.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/sensor.hpp"

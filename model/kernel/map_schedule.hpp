@@ -15,7 +15,7 @@
 
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/pictures.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/kernel/tick_inputs.hpp"
 

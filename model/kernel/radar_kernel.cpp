@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/kernel/scan_state.hpp"
 #include "model/kernel/tick_inputs.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/receiver.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "databuffer/messages/record_hashes.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/world.hpp"

@@ -16,7 +16,7 @@
 #include "databuffer/messages/world_state.hpp"
 #include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/values/presets.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/physics/environment.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/world.hpp"
 #include "model/physics/reflectivity.hpp"
 

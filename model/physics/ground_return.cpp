@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/world.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/reflectivity.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
 #ifndef YARS_MODEL_PHYSICS_RAIN_RUN

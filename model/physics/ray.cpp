@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "lib/geo/earth.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "model/physics/ray_simd.hpp"
 #include "model/terrain/formats/cell.hpp"

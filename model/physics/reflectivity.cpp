@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/sensor.hpp"
 #include "lib/radar/world.hpp"
-#include "lib/random/gradient_noise.hpp"
+#include "lib/random/counter_rng.hpp"
 
 namespace yars::model::physics {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/physics/receiver.hpp"
 
 namespace yars::model::physics {

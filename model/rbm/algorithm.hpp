@@ -1,23 +1,42 @@
 // Interface of the algorithms that make the sweeps of the real beam map. They compute power from terrain, and video
 // from power. Video is brightness, 0 to 255.
-// An algorithm measures one ray at a time. Beam (beam.hpp) adds several rays and point targets.
+// An algorithm measures one ray at a time. Beam (beam.hpp) adds several rays and point targets. RayGround is the ground
+// along one ray, as far as it hides and attenuates these: Algorithm::describe() fills it, PointReturn reads it.
 // Inputs: geometry of a ray; terrain, scenes and traffic; configuration at construction.
 // Outputs: power per sample, mask of the lit samples, 8-bit video. Samples are ordered near to far. A power of 1 is
 // full scale: it gives video 255 at the highest GAIN step. A void (ground without elevation data) returns no power.
+// Units: heights are above mean sea level.
 // Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/radar_maths.md.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <vector>
 
 #include "model/physics/environment.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
-#include "model/rbm/ray_ground.hpp"
 
 namespace yars::model::rbm {
+
+struct RayGround {
+  struct Sample {
+    double horizon = 0.0;  // maximum tangent of elevation angle up to and including this sample
+    double peak_m = 0.0;   // highest ground at the sample, which casts the shadow; NaN: void
+    // Slope of the ground from the peak of the previous sample to that of this one, if it is taken to be straight
+    // between them. NaN: it is walked.
+    double slope = std::numeric_limits<double>::quiet_NaN();
+  };
+  explicit RayGround(std::size_t count) : samples(count), distance_m(count) { transmission.reserve(count); }
+
+  physics::SweepGeometry geometry;  // of the ray
+  std::vector<Sample> samples;
+  std::vector<double> distance_m;    // over ground, ascending; NaN: slant range too short to meet the ground
+  std::vector<double> transmission;  // two-way, of the rain; empty: no rain
+};
 
 // [azimuth beamwidths] Azimuth offset from the sweep, to the left and to the right, of the two side rays that give the
 // cross-track slope. They must lie within the beam, and must be far enough apart to measure the slope over its width.

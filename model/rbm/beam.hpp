@@ -15,7 +15,6 @@
 #include "lib/memory/line_vector.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/point_return.hpp"
-#include "model/rbm/ray_ground.hpp"
 #include "model/rbm/sweep_simd.hpp"
 
 namespace yars::radar {

@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "lib/geo/earth.hpp"
 #include "lib/geo/frames.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/receiver.hpp"

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "lib/geo/earth.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/world.hpp"

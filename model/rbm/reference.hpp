@@ -13,7 +13,7 @@
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/scene_covers.hpp"
+#include "model/rbm/scene_ray.hpp"
 
 namespace yars::model::rbm {
 

@@ -1,4 +1,4 @@
-// Radar cross section of a scatterer (scatterers.hpp) in Highway vectors of float, over its facings.
+// Radar cross section of a scatterer (scene_view.hpp) in Highway vectors of float, over its facings.
 // Inputs: facings, direction to the aircraft, reflectivity of materials. Output: cross section [m^2].
 // Accuracy: 1e-4 relative against SceneSurface in double.
 // Threads: pure functions. All instruction sets give results equal bit by bit.
@@ -9,7 +9,7 @@
 
 #include "lib/radar/modes.hpp"
 #include "model/physics/reflectivity.hpp"
-#include "model/scene/placement/scatterers.hpp"
+#include "model/scene/placement/scene_view.hpp"
 
 namespace yars::model::rbm::simd {
 

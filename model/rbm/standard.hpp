@@ -22,7 +22,7 @@
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/line_of_sight.hpp"
-#include "model/rbm/scene_covers.hpp"
+#include "model/rbm/scene_ray.hpp"
 #include "model/rbm/sweep_simd.hpp"
 
 namespace yars::model::rbm {

@@ -1,7 +1,6 @@
 // The module yars._core: the kernels of scans and patch maps for Python. The package yars wraps it (results.py).
 
 #include "python/core/calls.hpp"
-#include "python/core/offline_runs.hpp"
 #include "python/core/patch_series.hpp"
 #include "python/core/places.hpp"
 #include "python/core/radar_class.hpp"

@@ -11,12 +11,11 @@
 #include <optional>
 #include <utility>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/values/fields.hpp"
-#include "python/core/patch_boxes.hpp"
-#include "radar/failure.hpp"
+#include "python/core/results.hpp"
 #include "radar/limits.hpp"
-#include "radar/patch_work.hpp"
+#include "radar/private_data.hpp"
 
 namespace yars::python {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <span>
 
-#include "radar/stores.hpp"
+#include "radar/private_data.hpp"
 
 namespace yars::python {
 

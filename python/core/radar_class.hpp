@@ -1,6 +1,8 @@
 // Class Radar of the Python module: yars::Radar, with requests from keyword arguments and results as NumPy arrays.
-// Inputs: settings; requests, whose fields Python sets by name. Outputs: ScanResult, PatchResult, many maps at once.
-// Errors: ValueError and yars.Error with the fields of the library's error.
+// Functions of the module that write files or measure: made-up scenes and terrain, trades.
+// Inputs: settings; requests, whose fields Python sets by name; names of files.
+// Outputs: ScanResult, PatchResult, many maps at once; files; the JSON text of a trade. Progress goes to a terminal
+// alone. Errors: ValueError and yars.Error with the fields of the library's error.
 // Threads: the interpreter's lock is released while files are read and while pictures are computed.
 #pragma once
 
@@ -37,5 +39,8 @@ class Radar {
 };
 
 void add_radar(py::module_& module);
+
+// Adds generate_terrain(), generate_scene() and trade().
+void add_offline_runs(py::module_& module);
 
 }  // namespace yars::python

@@ -9,7 +9,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "radar/failure.hpp"
 #include "radar/limits.hpp"
 
 namespace yars::python {

@@ -17,8 +17,7 @@
 #include "databuffer/messages/world_state.hpp"
 #include "lib/error/error.hpp"
 #include "radar/recording/recorded_kinds.hpp"
-#include "radar/recording/recording_reader.hpp"
-#include "radar/recording/recording_writer.hpp"
+#include "radar/recording/recording_io.hpp"
 
 namespace yars::recording {
 

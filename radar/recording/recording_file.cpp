@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "radar/recording/block.hpp"
-#include "radar/recording/compression.hpp"
 #include "radar/recording/recorded_kinds.hpp"
 
 namespace yars::recording {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "radar/recording/compression.hpp"
+#include "radar/recording/block.hpp"
 
 namespace yars::recording {
 

@@ -20,7 +20,7 @@
 #include "model/terrain/sampling/terrain_view.hpp"
 #include "radar/recording/branch.hpp"
 #include "radar/recording/recorded_kinds.hpp"
-#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_io.hpp"
 
 namespace yars::radar {
 struct RadarConfiguration;

@@ -1,4 +1,4 @@
-"""The word of a list that a misspelled word most likely means: as lib/text/nearest_word.hpp for the programs.
+"""The word of a list that a misspelled word most likely means: as lib/text/plain_text.hpp for the programs.
 
 Near is at most a third of the word's length, in Damerau-Levenshtein distance; upper and lower case are equal. Else the
 shortest that begins with the word, of four characters or more.

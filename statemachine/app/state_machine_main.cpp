@@ -3,8 +3,8 @@
 #include "config/schema/load.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
+#include "runtime/claims.hpp"
 #include "runtime/program.hpp"
-#include "runtime/role.hpp"
 #include "statemachine/app/state_machine_shell.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
-#include "databuffer/session/session_world.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/mission.hpp"
 #include "statemachine/advice.hpp"

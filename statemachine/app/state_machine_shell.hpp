@@ -13,7 +13,6 @@
 
 #include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/mission.hpp"
 #include "runtime/tick_loop.hpp"

@@ -13,11 +13,11 @@
 #include "databuffer/json/status_json.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
-#include "databuffer/session/validated.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
-#include "station/theatre_json.hpp"
+#include "station/instructor_map.hpp"
 #include "world/world_json.hpp"
 
 namespace yars::station {

@@ -15,12 +15,10 @@
 #include <optional>
 #include <string>
 
-#include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/session_world.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "runtime/processor_load.hpp"
 #include "station/instructor_message.hpp"
-#include "station/removed_entries.hpp"
 
 namespace yars::station {
 

@@ -1,24 +1,116 @@
-// What all connections of the server share: files, sessions, sets, map, rules, and the pages that are open.
-// Inputs: names of sessions; looks at their segments. Outputs: feeds; messages to the pages that are open.
-// Errors: a session that does not exist is an Error.
-// Threads: one; answers of the map come to it by way of the context.
+// What all connections of the server share: files, sessions, sets, map, rules, open pages. A feed between segment and
+// pages. The map draws tiles in its own thread, so that frames do not wait for terrain.
+// Inputs: names of sessions, and their records; events of the pages; the configured terrain; requests of tiles.
+// Outputs: feeds; messages to the open pages; input events in an input lane; tiles as PNG.
+// Errors: a session that does not exist is an Error. Invalid records are refused and noted; the last valid one stays. A
+// full input lane drops the event, with a warning. Problems of the terrain are logged at level debug: radar-model
+// reports them. Ground without a file is drawn as sea or absent, as configured.
+// Limits: kMaxWaiting requests of tiles wait; more are refused. The newest kKept tiles are kept.
+// Threads: one; the map answers in its own thread, and the site by way of the context.
+// Source: docs/station.md#messages.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
+#include "display/symbology/plan_view.hpp"
+#include "runtime/claims.hpp"
 #include "station/access.hpp"
-#include "station/app/feed_shell.hpp"
 #include "station/app/instructor_shell.hpp"
-#include "station/app/map_shell.hpp"
 #include "station/app/sets_shell.hpp"
+#include "station/instructor_map.hpp"
+#include "station/page_message.hpp"
+
+namespace yars::station {
+
+using Text = std::shared_ptr<const std::string>;
+
+class StationFeed {
+ public:
+  // Error: no input lane is free.
+  static error::Expected<StationFeed> create(databuffer::Session& session);
+
+  // Looks for news in the segment. True if there are any.
+  bool refresh();
+  FrameStream& frames() { return frames_; }
+  // The newest state as a message; its number counts up with each new text.
+  const Text& state() const { return state_text_; }
+  std::uint64_t state_number() const { return state_number_; }
+  void send(const databuffer::InputEvent& event) { lane_.send(event); }
+
+ private:
+  StationFeed(databuffer::Session& session, runtime::InputLane lane) : session_(&session), lane_(std::move(lane)) {}
+  bool refresh_frame(std::int64_t now_ns);
+  bool refresh_state(std::int64_t now_ns);
+  std::string state_message() const;
+
+  databuffer::Session* session_;
+  runtime::InputLane lane_;
+  FrameStream frames_;
+  std::uint64_t frame_id_ = 0;  // of the last frame that was read, valid or not
+  std::vector<std::uint8_t> pixels_;
+  std::int64_t frame_ns_ = 0;  // CLOCK_MONOTONIC when the newest frame was read; 0: none
+  display::DisplayInput input_;
+  databuffer::Validated<databuffer::RadarState> state_;
+  databuffer::Validated<databuffer::ModelStatus> model_;
+  databuffer::Validated<databuffer::PilotAdvice> advice_;
+  Text state_text_;
+  std::uint64_t state_number_ = 0;
+  std::int64_t next_state_ns_ = 0;
+};
+
+}  // namespace yars::station
+
+namespace yars::model::terrain {
+class TerrainStore;
+}  // namespace yars::model::terrain
+
+namespace yars::station {
+
+class MapShell {
+ public:
+  using Answer = std::function<void(std::shared_ptr<const std::string> png)>;
+
+  explicit MapShell(std::unique_ptr<model::terrain::TerrainStore> store);
+  ~MapShell();
+  MapShell(const MapShell&) = delete;
+  MapShell& operator=(const MapShell&) = delete;
+
+  // Calls `answer` in another thread, or at once for a tile that is kept. False: too many requests wait.
+  bool request(const MapTile& tile, Answer answer);
+
+ private:
+  static constexpr std::size_t kMaxWaiting = 512, kKept = 256;
+  void serve();
+  std::shared_ptr<const std::string> drawn(const MapTile& tile);
+
+  struct Request {
+    MapTile tile;
+    Answer answer;
+  };
+  std::unique_ptr<model::terrain::TerrainStore> store_;
+  std::mutex mutex_;  // guards the members below, except thread_
+  std::condition_variable wake_;
+  std::deque<Request> waiting_;
+  std::map<MapTile, std::shared_ptr<const std::string>> kept_;
+  std::deque<MapTile> order_;  // of kept_, the oldest first
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace yars::station
 
 namespace boost::asio {
 class io_context;

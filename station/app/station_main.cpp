@@ -11,17 +11,16 @@
 
 #include "config/schema/load.hpp"
 #include "flightmodel/route_flight.hpp"
-#include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
-#include "radar/failure.hpp"
+#include "radar/limits.hpp"
 #include "radar/theatre.hpp"
 #include "runtime/process.hpp"
 #include "runtime/program.hpp"
 #include "station/app/server_shell.hpp"
-#include "station/theatre_json.hpp"
+#include "station/instructor_map.hpp"
 
 namespace {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "databuffer/messages/model_records.hpp"
-#include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
+#include "shm/ring_buffers.hpp"
 #include "tests/benchmarks/memcpy_ring.hpp"
 #include "tests/benchmarks/timing.hpp"
 

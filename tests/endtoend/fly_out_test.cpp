@@ -9,7 +9,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "radar/recording/branch.hpp"
-#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "tests/endtoend/supervised_set.hpp"
 #include "tests/radar/recording/made_recording.hpp"
 

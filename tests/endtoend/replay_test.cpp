@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "tests/endtoend/lockstep_run.hpp"
 
 namespace yars::endtoend {

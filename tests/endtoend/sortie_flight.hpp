@@ -11,7 +11,7 @@ namespace yars::endtoend {
 inline constexpr double kRunwayElevation_m = 195.0;  // in the terrain that the test generates
 inline constexpr double kSortie_s = 262.0;           // duration; the aircraft stands still at both ends
 
-// The track as a CSV text with the columns of flightmodel/track_flight.hpp, one row each 0.25 s.
+// The track as a CSV text with the columns of flightmodel/source_reader.hpp, one row each 0.25 s.
 std::string sortie_track();
 
 }  // namespace yars::endtoend

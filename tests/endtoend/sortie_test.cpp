@@ -10,7 +10,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/imageio/png.hpp"
-#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "tests/endtoend/lockstep_run.hpp"
 #include "tests/endtoend/sortie_flight.hpp"
 #include "tests/lib/imageio/read_png.hpp"

@@ -9,8 +9,8 @@
 #include <map>
 #include <sstream>
 
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tests/endtoend/lockstep_run.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "databuffer/session/session.hpp"
-#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "tests/endtoend/process_set.hpp"
 
 namespace yars::endtoend {

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "lib/geo/quantity.hpp"
-#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "tests/endtoend/lockstep_run.hpp"
 
 namespace yars::endtoend {

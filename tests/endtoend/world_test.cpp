@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "databuffer/messages/inspection.hpp"
-#include "databuffer/session/session_world.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "lib/radar/modes.hpp"
-#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "tests/endtoend/process_set.hpp"
 
 namespace yars::endtoend {

@@ -12,7 +12,6 @@
 #include "databuffer/messages/validation.hpp"
 #include "flightmodel/route_flight.hpp"
 #include "flightmodel/source_reader.hpp"
-#include "flightmodel/track_flight.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/antenna/antenna.hpp"
 #include "tests/model/kernel/cockpit.hpp"

@@ -1,11 +1,10 @@
 // Tests of TrackFlight (`--source csv:FILE`): the file's columns and errors, and the flight along its rows.
-#include "flightmodel/track_flight.hpp"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <string>
 
+#include "flightmodel/source_reader.hpp"
 #include "tests/flightmodel/flight_checks.hpp"
 
 namespace yars::flightmodel {

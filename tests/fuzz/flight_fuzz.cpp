@@ -5,7 +5,7 @@
 
 #include "databuffer/messages/validation.hpp"
 #include "flightmodel/route_flight.hpp"
-#include "flightmodel/track_flight.hpp"
+#include "flightmodel/source_reader.hpp"
 #include "lib/error/error.hpp"
 
 using namespace yars;

@@ -1,5 +1,5 @@
 // Any bytes as a FlightGear packet: an error, or a sample that passes validation, as do samples extrapolated from it.
-#include "flightmodel/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

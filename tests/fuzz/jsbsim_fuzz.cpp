@@ -1,7 +1,7 @@
 // Any text as JSBSim's output, one datagram per line, with labels and numbers in any order. Samples pass validation.
 #include <string_view>
 
-#include "flightmodel/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -12,13 +12,12 @@
 #include <optional>
 #include <utility>
 
-#include "databuffer/messages/record_hashes.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "gateway/exchange/clock_exchange.hpp"
 #include "gateway/exchange/event_exchange.hpp"
-#include "gateway/exchange/history_exchange.hpp"
 #include "gateway/exchange/lockstep_exchange.hpp"
-#include "gateway/exchange/map_exchange.hpp"
+#include "gateway/exchange/model_exchange.hpp"
 #include "gateway/exchange/state_exchange.hpp"
 #include "gateway/exchange/world_exchange.hpp"
 #include "lib/error/error.hpp"

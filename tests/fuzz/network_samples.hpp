@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "databuffer/messages/record_hashes.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "databuffer/session/session.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/hosts.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "inputmonitor/terminal.hpp"
+#include "inputmonitor/keyboard_source.hpp"
 #include "lib/error/error.hpp"
 
 using namespace yars;

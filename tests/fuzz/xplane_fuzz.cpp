@@ -1,5 +1,5 @@
 // Any bytes as X-Plane's replies: the input as one datagram, then as a sequence of datagrams. Samples pass validation.
-#include "flightmodel/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

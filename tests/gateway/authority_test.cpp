@@ -1,6 +1,4 @@
 // Which host has a role: the rule by which hosts agree without asking each other.
-#include "gateway/authority.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/host_agreement.hpp"
 #include "tests/gateway/random_seed.hpp"
 
 namespace yars::gateway {

@@ -1,6 +1,4 @@
 // Offset between two clocks over a simulated network with different delays there and back.
-#include "gateway/clock_offset.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -8,6 +6,7 @@
 #include <random>
 #include <string>
 
+#include "gateway/host_agreement.hpp"
 #include "tests/gateway/random_seed.hpp"
 
 namespace yars::gateway {

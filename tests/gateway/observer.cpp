@@ -16,11 +16,11 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/messages/record_hashes.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/session_world.hpp"
-#include "databuffer/session/validated.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "runtime/process.hpp"
 #include "tests/endtoend/fault_injection/watch.hpp"
 

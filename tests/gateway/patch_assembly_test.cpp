@@ -1,6 +1,4 @@
 // Patch maps out of rows that arrive in any order.
-#include "gateway/patch_assembly.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/sample_reception.hpp"
 #include "tests/gateway/random_seed.hpp"
 
 namespace yars::gateway {

@@ -1,6 +1,4 @@
 // Repeated and lost samples of one host and topic.
-#include "gateway/sample_numbers.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/sample_reception.hpp"
 #include "tests/gateway/random_seed.hpp"
 
 namespace yars::gateway {

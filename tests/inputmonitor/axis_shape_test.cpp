@@ -1,7 +1,7 @@
 // shaped(): deflection -1 to 1 of an axis from its raw value, with dead zone, curve and inversion.
 #include <gtest/gtest.h>
 
-#include "inputmonitor/device_map.hpp"
+#include "inputmonitor/device_decoder.hpp"
 
 namespace yars::inputmonitor {
 namespace {

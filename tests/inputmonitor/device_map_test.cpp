@@ -1,6 +1,4 @@
 // Selection of the map that fits a device, and resolving of the map: travel of the axes, codes of the buttons.
-#include "inputmonitor/device_map.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -13,7 +13,6 @@
 #include "config/schema/load.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "inputmonitor/device_decoder.hpp"
-#include "inputmonitor/device_map.hpp"
 
 namespace yars::inputmonitor::testing {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "inputmonitor/terminal.hpp"
+#include "inputmonitor/keyboard_source.hpp"
 
 namespace yars::inputmonitor {
 namespace {

@@ -1,10 +1,9 @@
 // Input lane of a program with a display, and which roles live.
-#include "runtime/pilot_link.hpp"
-
 #include <gtest/gtest.h>
 
 #include <vector>
 
+#include "runtime/claims.hpp"
 #include "tests/databuffer/session/open_session.hpp"
 
 namespace yars::runtime {

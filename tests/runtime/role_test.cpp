@@ -1,6 +1,4 @@
 // Start of a program that holds a role, at once and as a standby.
-#include "runtime/role.hpp"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -9,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/claims.hpp"
 #include "tests/databuffer/session/open_session.hpp"
 
 namespace yars::runtime {

@@ -12,7 +12,7 @@
 #include "flightmodel/app/udp_socket_shell.hpp"
 #include "flightmodel/bridges/bridge_source.hpp"
 #include "lib/log/log.hpp"
-#include "radar/recording/recording_writer.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "runtime/process.hpp"
 #include "tests/security/folder.hpp"
 #include "tests/shm/child_process.hpp"

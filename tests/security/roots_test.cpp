@@ -19,7 +19,7 @@
 #include "model/terrain/formats/pack.hpp"
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/store/cell_files.hpp"
-#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "tests/security/folder.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 

@@ -1,8 +1,7 @@
 // InputLanes: order within a lane, full lanes, and no damage when a producer or the consumer is killed at any store.
-#include "shm/input_lanes.hpp"
-
 #include <gtest/gtest.h>
 
+#include "shm/ring_buffers.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/hooked_access.hpp"
 #include "tests/shm/numbered_record.hpp"

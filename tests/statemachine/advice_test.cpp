@@ -8,7 +8,6 @@
 #include <string>
 
 #include "databuffer/messages/validation.hpp"
-#include "statemachine/reasons.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {

@@ -1,12 +1,11 @@
 // Reasons of events that were sent together, and the press of the TDC.
 // Source: docs/commands.md#inject.
-#include "statemachine/reasons.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
+#include "statemachine/advice.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {

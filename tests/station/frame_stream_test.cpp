@@ -1,12 +1,12 @@
 // Frames as messages: a page that applies them has the published pixels, whatever it missed; each is encoded once.
-#include "station/frame_stream.hpp"
-
 #include <gtest/gtest.h>
 #include <png.h>
 
 #include <cstring>
 #include <random>
 #include <vector>
+
+#include "station/page_message.hpp"
 
 namespace yars::station {
 namespace {

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "lib/radar/world.hpp"
-#include "station/world_message.hpp"
 #include "world/world_edit.hpp"
 #include "world/world_values.hpp"
 

@@ -1,6 +1,4 @@
 // Entries that a page removed come back as they were; others are refused.
-#include "station/removed_entries.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "lib/radar/world.hpp"
+#include "station/instructor_message.hpp"
 #include "tests/world/new_entries.hpp"
 #include "world/world_values.hpp"
 

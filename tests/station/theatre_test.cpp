@@ -6,8 +6,7 @@
 #include "databuffer/messages/key_map.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
-#include "station/map_tile.hpp"
-#include "station/theatre_json.hpp"
+#include "station/instructor_map.hpp"
 
 namespace yars::station {
 namespace {

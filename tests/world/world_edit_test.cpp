@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "databuffer/messages/validation.hpp"
-#include "lib/radar/route.hpp"
+#include "lib/radar/modes.hpp"
 #include "lib/values/fields.hpp"
 #include "tests/world/new_entries.hpp"
 #include "world/world_values.hpp"

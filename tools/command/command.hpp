@@ -1,11 +1,18 @@
-// Interface of the subcommands of `yars`. Each add_..._command function registers one subcommand. The other add_...
-// functions register subcommands of a subcommand, or options that several subcommands share.
+// Interface of the subcommands of `yars`: their registration, and helpers of their output: --json, checks of output
+// names, raw float files, run times, progress reports. Each add_..._command function registers one subcommand. The
+// other add_... functions register subcommands of a subcommand, or options that several subcommands share.
 // Errors: a callback that fails throws radar::Failure or CommandFailed. yars_main prints its message as one line and
-// returns its code.
+// returns its code. The check_... functions throw radar::Failure, before the computation starts. In JSON, text that is
+// not valid UTF-8, as in a file name, is replaced. Source of the fields of JSON: docs/commands.md#json.
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -112,5 +119,74 @@ void add_terrain_pack(runtime::Command terrain);
 void add_scene_generate(runtime::Command scene);
 void add_scene_info(runtime::Command scene);
 void add_scene_image(runtime::Command scene);
+
+enum class JsonLines { one, many };
+
+// Adds --json: prints one JSON object in place of text.
+runtime::Option add_json_flag(runtime::Command command, bool& json,
+                              const std::string& help = "print one JSON object in place of text");
+
+// Prints the object and a line feed. JsonLines::many: indented, for people.
+void print_json(const nlohmann::ordered_json& object, JsonLines lines = JsonLines::one);
+
+// Extension of a file name in lower case with its dot, such as ".png"; empty if there is none.
+std::string ending_of(const std::string& name);
+
+// Value of an output option that means no output file.
+constexpr const char* kNoFile = "none";
+// Whether the value of an output option names a file: it is neither empty nor kNoFile.
+bool names_file(const std::string& name);
+
+// Requires that `name` ends in one of `endings` (".png") and that a file can be created at this path. `option` names
+// the command-line option in the message. A name without a file (names_file()) passes.
+void check_file_name(const std::string& option, const std::string& name, const std::vector<std::string>& endings);
+
+// Requires a folder name. A name that ends like a file which YARS reads or writes (".png", ".dt1") is an error.
+void check_folder_name(const std::string& option, const std::string& name);
+
+// Writes 32-bit floats in the order given, little endian on every machine, without header.
+// Errors: the file cannot be written.
+error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values);
+
+// [ms] Reading of the steady clock. Only differences of two readings have a meaning.
+double wall_ms();
+// [ms] Processor time of all threads of this process since its start.
+double processor_ms();
+// The median; for an even number of values, the larger of the two middle values. Requires at least one value.
+double median(std::vector<double> values);
+
+// Progress of a long command on standard error: items done, total, estimated time left. Prints at most one line per
+// second, and a line for the last item if a line precedes it. With 64 items or fewer it also prints each item that has
+// a note. Prints nothing if standard error is not a terminal.
+class Progress {
+ public:
+  explicit Progress(std::size_t total);
+  // Counts one item as done. `note` describes it and may be empty.
+  void done(const std::string& note);
+
+ private:
+  bool terminal_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+  std::chrono::steady_clock::time_point start_time_;
+  std::chrono::steady_clock::time_point last_print_time_;
+};
+
+// One status line on standard error. New text overwrites it at most ten times a second. Prints nothing if standard
+// error is not a terminal, or one that cannot erase a line (TERM=dumb). The destructor erases the line.
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine() { show(""); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  // Empty text erases the line.
+  void show(const std::string& text);
+
+ private:
+  bool shown_ = false;
+  bool terminal_;
+  std::chrono::steady_clock::time_point last_print_time_;
+};
 
 }  // namespace yars::tools

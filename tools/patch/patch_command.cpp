@@ -24,8 +24,6 @@
 #include "model/terrain/gdal/raster.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
-#include "tools/command/output.hpp"
 #include "yars/radar.hpp"
 
 namespace yars::tools {

@@ -23,11 +23,9 @@
 #include "lib/imageio/png.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/kernel/sweep_chain.hpp"
-#include "radar/scan_work.hpp"
+#include "radar/private_data.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
-#include "tools/command/output.hpp"
 #include "yars/radar.hpp"
 
 namespace yars::tools {

@@ -14,8 +14,6 @@
 #include "lib/values/fields.hpp"
 #include "radar/limits.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
-#include "tools/command/output.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::tools {

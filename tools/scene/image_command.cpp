@@ -15,7 +15,6 @@
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/output.hpp"
 
 namespace yars::tools {
 

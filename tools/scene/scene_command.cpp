@@ -17,7 +17,6 @@
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 
 namespace yars::tools {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/log/log.hpp"
 #include "runtime/process.hpp"

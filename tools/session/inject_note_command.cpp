@@ -11,15 +11,13 @@
 #include <vector>
 
 #include "databuffer/messages/input_event.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
-#include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
 #include "runtime/process.hpp"
 #include "runtime/program.hpp"
-#include "statemachine/reasons.hpp"
+#include "statemachine/advice.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 
 namespace yars::tools {
 

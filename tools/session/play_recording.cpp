@@ -12,14 +12,14 @@
 #include <utility>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
 #include "radar/recording/replay.hpp"
 #include "runtime/process.hpp"
-#include "tools/command/json_output.hpp"
+#include "tools/command/command.hpp"
 
 namespace yars::tools {
 

@@ -8,16 +8,15 @@
 #include <utility>
 
 #include "databuffer/session/session.hpp"
-#include "lib/file/file_search.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "radar/recording/branch.hpp"
-#include "radar/recording/recording_writer.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "runtime/process.hpp"
 #include "runtime/program.hpp"
 #include "runtime/tick_loop.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 #include "tools/session/recorder.hpp"
 
 namespace yars::tools {

@@ -9,8 +9,8 @@
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session_layout.hpp"
-#include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 

@@ -15,7 +15,7 @@
 #include "databuffer/session/session.hpp"
 #include "radar/recording/branch.hpp"
 #include "radar/recording/recorded_kinds.hpp"
-#include "radar/recording/recording_writer.hpp"
+#include "radar/recording/recording_io.hpp"
 
 namespace yars::tools {
 

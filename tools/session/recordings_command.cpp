@@ -17,11 +17,9 @@
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "radar/recording/branch.hpp"
-#include "radar/recording/recording_reader.hpp"
-#include "radar/recording/recording_writer.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 
 namespace yars::tools {
 

@@ -9,16 +9,15 @@
 #include <thread>
 #include <utility>
 
-#include "databuffer/session/clock_changes.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/values/fields.hpp"
 #include "runtime/process.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 
 namespace yars::tools {
 

@@ -18,7 +18,6 @@
 #include "runtime/processor_load.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 #include "tools/session/status_text.hpp"
 
 namespace yars::tools {

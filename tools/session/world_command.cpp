@@ -19,12 +19,11 @@
 #include <vector>
 
 #include "databuffer/messages/world_lists.hpp"
-#include "databuffer/session/session_world.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "lib/radar/world.hpp"
 #include "lib/text/plain_text.hpp"
 #include "lib/values/fields.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 #include "world/world_edit.hpp"
 #include "world/world_json.hpp"
 

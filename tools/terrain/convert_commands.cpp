@@ -26,8 +26,6 @@
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
-#include "tools/command/output.hpp"
 
 namespace yars::tools {
 

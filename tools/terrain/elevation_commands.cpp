@@ -13,7 +13,6 @@
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 
 namespace yars::tools {
 

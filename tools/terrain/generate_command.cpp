@@ -23,8 +23,6 @@
 #include "model/terrain/formats/dted.hpp"
 #include "radar/limits.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
-#include "tools/command/output.hpp"
 #include "worldgen/terrain/landscape.hpp"
 
 namespace yars::tools {

@@ -12,7 +12,6 @@
 #include "model/terrain/picture/hill_shade.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/output.hpp"
 
 namespace yars::tools {
 

@@ -19,8 +19,6 @@
 #include "model/terrain/gdal/raster_survey.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
-#include "tools/command/output.hpp"
 
 namespace yars::tools {
 

@@ -13,8 +13,7 @@
 #include "lib/geo/geodesy.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/kernel/offline_scan.hpp"
-#include "tools/trade/map_errors.hpp"
-#include "tools/trade/scan_errors.hpp"
+#include "tools/trade/trade_errors.hpp"
 #include "tools/trade/trade_table.hpp"
 
 namespace yars::tools::trade {

@@ -21,10 +21,8 @@
 #include "radar/limits.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
-#include "tools/command/output.hpp"
-#include "tools/trade/candidate.hpp"
 #include "tools/trade/scenes.hpp"
+#include "tools/trade/trade_table.hpp"
 
 namespace yars::tools {
 

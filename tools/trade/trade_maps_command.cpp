@@ -12,11 +12,10 @@
 #include "model/terrain/store/directory_store.hpp"
 #include "radar/limits.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/output.hpp"
-#include "tools/trade/candidate.hpp"
-#include "tools/trade/map_errors.hpp"
 #include "tools/trade/scenes.hpp"
 #include "tools/trade/trade_command.hpp"
+#include "tools/trade/trade_errors.hpp"
+#include "tools/trade/trade_table.hpp"
 
 namespace yars::tools {
 

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "lib/geo/frames.hpp"
-#include "worldgen/scene/scene_parts.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::worldgen {
 

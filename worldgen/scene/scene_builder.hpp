@@ -1,6 +1,9 @@
 // Generator of OpenFlight scenes: the request, solid shapes as meshes, and functions that all kinds of scenes share.
+// Objects that several kinds use: aircraft, vehicles, trees, buildings; `sides` is the number of sides of their round
+// parts.
 // Input: a SceneRequest. Output: an OpenFlight file as bytes and its number of triangles. Equal requests give equal
-// files. Units: metres. Frame: x east, y north, z up; z = 0 is the ground. Threads: one thread per builder.
+// files. Units: metres. Frame: x east, y north, z up; z = 0 is the ground. Each object stands around the origin.
+// Aircraft and vehicles point toward +x. Buildings have their length along x. Threads: one thread per builder.
 #pragma once
 
 #include <cmath>
@@ -189,5 +192,19 @@ void generate_airfield(SceneBuilder& builder);
 void generate_harbour(SceneBuilder& builder);
 void generate_bridge(SceneBuilder& builder);
 void generate_town(SceneBuilder& builder);
+
+void draw_fighter(MeshBuilder& mesh, int sides);
+void draw_transport(MeshBuilder& mesh, int sides);  // transport aircraft
+void draw_truck(MeshBuilder& mesh, const SurfaceKind& body);
+void draw_tanker(MeshBuilder& mesh, int sides);  // road tanker
+void draw_car(MeshBuilder& mesh, const SurfaceKind& body);
+void draw_conifer(MeshBuilder& mesh, double height_m, int sides);
+void draw_leafy_tree(MeshBuilder& mesh, double height_m, int sides);
+// House with pitched roof and chimney. A dormer and a garage are each added at random.
+void draw_house(MeshBuilder& mesh, random::CounterRng& rng);
+// Block of flats with rows of windows, a parapet, and the upper ends of the stairwells on the roof.
+void draw_block(MeshBuilder& mesh, random::CounterRng& rng);
+// High-rise building on a wider base. It narrows in steps toward the top and has machinery and a mast on the roof.
+void draw_tower(MeshBuilder& mesh, random::CounterRng& rng);
 
 }  // namespace yars::worldgen

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "lib/geo/frames.hpp"
-#include "worldgen/scene/scene_parts.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::worldgen {
 
@@ -15,9 +15,9 @@ constexpr double kQuarterX_m = 120, kQuarterY_m = 76, kStreet_m = 11;
 constexpr int kHouses = 24, kBlocks = 8, kTowers = 4, kTrees = 4, kCars = 4;
 constexpr std::uint16_t kFirstHouse = 1, kFirstBlock = 101, kFirstTower = 201, kFirstTree = 301, kFirstCar = 401;
 
-class Town {
+class TownScene {
  public:
-  explicit Town(SceneBuilder& builder) : builder_(builder) {}
+  explicit TownScene(SceneBuilder& builder) : builder_(builder) {}
 
   void make() {
     builder_.turn(0.5);
@@ -144,7 +144,7 @@ class Town {
 }  // namespace
 
 void generate_town(SceneBuilder& builder) {
-  Town(builder).make();
+  TownScene(builder).make();
 }
 
 }  // namespace yars::worldgen

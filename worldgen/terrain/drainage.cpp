@@ -5,7 +5,7 @@
 #include <queue>
 #include <utility>
 
-#include "lib/random/gradient_noise.hpp"
+#include "lib/random/counter_rng.hpp"
 
 namespace yars::worldgen {
 

@@ -9,7 +9,7 @@
 
 #include "lib/error/error.hpp"
 #include "lib/geo/frames.hpp"
-#include "lib/random/gradient_noise.hpp"
+#include "lib/random/counter_rng.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::worldgen {

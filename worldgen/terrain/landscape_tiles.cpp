@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "lib/random/gradient_noise.hpp"
+#include "lib/random/counter_rng.hpp"
 
 namespace yars::worldgen {
 

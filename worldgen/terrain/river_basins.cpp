@@ -7,7 +7,7 @@
 #include <queue>
 #include <tuple>
 
-#include "lib/random/gradient_noise.hpp"
+#include "lib/random/counter_rng.hpp"
 
 namespace yars::worldgen {
 

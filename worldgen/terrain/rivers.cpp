@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/geo/frames.hpp"
-#include "lib/random/gradient_noise.hpp"
+#include "lib/random/counter_rng.hpp"
 
 namespace yars::worldgen {
 

@@ -12,7 +12,7 @@
 
 #include "lib/radar/world.hpp"
 #include "lib/text/plain_text.hpp"
-#include "model/scene/placement/plan_geometry.hpp"
+#include "model/scene/placement/geometry.hpp"
 #include "model/scene/placement/tile_builder.hpp"
 #include "model/terrain/store/directory_store.hpp"
 

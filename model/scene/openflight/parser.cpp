@@ -5,10 +5,9 @@
 
 #include "lib/geo/frames.hpp"
 #include "lib/text/plain_text.hpp"
-#include "model/scene/openflight/node_records.hpp"
 #include "model/scene/openflight/node_tree.hpp"
+#include "model/scene/openflight/record_readers.hpp"
 #include "model/scene/openflight/records.hpp"
-#include "model/scene/openflight/surface_records.hpp"
 
 namespace yars::model::scene {
 

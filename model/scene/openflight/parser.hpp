@@ -17,8 +17,8 @@
 
 #include "lib/error/error.hpp"
 #include "model/scene/openflight/node_tree.hpp"
+#include "model/scene/openflight/record_readers.hpp"
 #include "model/scene/openflight/records.hpp"
-#include "model/scene/openflight/surface_records.hpp"
 
 namespace yars::model::scene {
 

@@ -11,9 +11,9 @@
 
 #include "lib/text/plain_text.hpp"
 #include "model/scene/openflight/model.hpp"
-#include "model/scene/openflight/node_records.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/openflight/parser.hpp"
+#include "model/scene/openflight/record_readers.hpp"
 #include "model/scene/openflight/records.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "lib/geo/frames.hpp"
-#include "model/scene/placement/plan_geometry.hpp"
-#include "model/scene/placement/scatterers.hpp"
+#include "model/scene/placement/geometry.hpp"
+#include "model/scene/placement/scene_view.hpp"
 #include "model/scene/placement/tile_builder.hpp"
 
 namespace yars::model::scene {

@@ -12,9 +12,8 @@
 #include "lib/radar/modes.hpp"
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/node_tree.hpp"
-#include "model/scene/placement/scatterers.hpp"
+#include "model/scene/placement/geometry.hpp"
 #include "model/scene/placement/scene_view.hpp"
-#include "model/scene/placement/spatial_index.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::scene {

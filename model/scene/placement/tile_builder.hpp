@@ -1,5 +1,5 @@
 // Builder of a scene's tiles (scene_view.hpp) from triangles that have been placed on the earth.
-// Inputs: triangles with normals and tags; corners as plane coordinates of the scene (scatterers.hpp) and altitude MSL.
+// Inputs: triangles with normals and tags; corners as plane coordinates of the scene (scene_view.hpp) and altitude MSL.
 // Outputs: Tiles with joined vertices.
 // Units: metres.
 #pragma once
@@ -12,7 +12,7 @@
 
 #include "lib/geo/frames.hpp"
 #include "model/scene/openflight/node_tree.hpp"
-#include "model/scene/placement/plan_geometry.hpp"
+#include "model/scene/placement/geometry.hpp"
 #include "model/scene/placement/scene_view.hpp"
 
 namespace yars::model::scene {

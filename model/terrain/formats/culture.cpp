@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "lib/file/file_search.hpp"
 #include "lib/file/folder.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/imageio/png.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 

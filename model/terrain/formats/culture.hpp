@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "lib/file/file_search.hpp"
+#include "lib/file/text_file.hpp"
 #include "model/terrain/formats/cell.hpp"
 
 namespace yars::model::terrain {

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "lib/error/error.hpp"
-#include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/memory/byte_order.hpp"
 #include "lib/text/plain_text.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
+#include "lib/file/text_file.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/formats/jpeg2000.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <iterator>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 
 namespace yars::model::terrain {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/crests_simd.hpp"
 #include "model/terrain/sampling/cubic_simd.hpp"

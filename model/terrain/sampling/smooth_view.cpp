@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/memory/line_vector.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/height_simd.hpp"

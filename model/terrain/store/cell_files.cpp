@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "lib/error/error.hpp"
-#include "lib/file/file_search.hpp"
+#include "lib/file/text_file.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/formats/ded.hpp"

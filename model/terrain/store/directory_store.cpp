@@ -7,7 +7,7 @@
 #include <future>
 #include <utility>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/world.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "lib/file/file_search.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/formats/ded.hpp"

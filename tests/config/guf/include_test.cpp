@@ -1,7 +1,7 @@
 // Tests of ( include "file" ) in GUF: where it may stand, which files it may name, its limits and its errors.
 #include <gmock/gmock.h>
 
-#include "lib/file/file_search.hpp"
+#include "lib/file/text_file.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {

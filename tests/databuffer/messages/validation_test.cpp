@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "databuffer/messages/clock_limits.hpp"
+#include "databuffer/messages/inspection.hpp"
 
 namespace yars::databuffer {
 namespace {

@@ -1,11 +1,10 @@
 // Changes of the session's clock that users ask for.
-#include "databuffer/session/clock_changes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "databuffer/session/session_state.hpp"
 #include "lib/radar/modes.hpp"
 

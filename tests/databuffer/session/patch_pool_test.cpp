@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "databuffer/session/picture_pool.hpp"
-#include "databuffer/session/validated.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "tests/databuffer/session/made_up_map.hpp"
 #include "tests/databuffer/session/open_session.hpp"
 #include "tests/shm/child_process.hpp"

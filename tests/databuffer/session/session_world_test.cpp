@@ -1,6 +1,4 @@
 // Changes of a session's world: each builds on the newest one, and several programs at once lose none.
-#include "databuffer/session/session_world.hpp"
-
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "tests/databuffer/session/open_session.hpp"
 #include "tests/world/new_entries.hpp"
 #include "world/world_values.hpp"

@@ -1,6 +1,4 @@
 // The caption of a tour: position of the plate, text, and what it may not cover.
-#include "display/symbology/caption.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "display/symbology/overlay_texts.hpp"
 #include "display/symbology/readouts.hpp"
 #include "lib/radar/modes.hpp"
 #include "tests/display/symbology/symbology_checks.hpp"

@@ -1,7 +1,5 @@
 // Help over the picture, remedies below messages, states without a picture. Source: docs/pilots_manual.md#help,
 // #remedies, #states.
-#include "display/symbology/help.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "display/symbology/text_lines.hpp"
+#include "display/symbology/overlay_texts.hpp"
+#include "display/symbology/text_layout.hpp"
 #include "tests/display/symbology/overlap.hpp"
 #include "tests/display/symbology/symbology_checks.hpp"
 

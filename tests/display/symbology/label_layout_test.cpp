@@ -1,7 +1,5 @@
 // Tests of the positions of labels: next to the symbol, farther out with a leader line, or none. Also tests the
 // priority between labels, and their stability from picture to picture.
-#include "display/symbology/label_layout.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "display/symbology/text_layout.hpp"
 #include "lib/radar/configuration.hpp"
 #include "tests/display/symbology/overlap.hpp"
 #include "tests/display/symbology/random_input.hpp"

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "display/symbology/bezel.hpp"
-#include "display/symbology/mouse.hpp"
 #include "display/symbology/readouts.hpp"
 #include "tests/display/symbology/symbology_checks.hpp"
 

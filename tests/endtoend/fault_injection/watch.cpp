@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "databuffer/messages/record_hashes.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "lib/text/plain_text.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "databuffer/messages/validation.hpp"
-#include "flightmodel/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tests/flightmodel/bridges/packets.hpp"
 

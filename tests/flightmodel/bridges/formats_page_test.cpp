@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "flightmodel/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge.hpp"
 
 namespace yars::flightmodel::bridges {
 namespace {

@@ -2,7 +2,7 @@
 // and with invalid lines.
 #include <gmock/gmock.h>
 
-#include "flightmodel/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge.hpp"
 #include "tests/flightmodel/bridges/packets.hpp"
 
 namespace yars::flightmodel::bridges {

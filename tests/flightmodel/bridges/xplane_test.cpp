@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "flightmodel/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge.hpp"
 #include "lib/memory/byte_order.hpp"
 #include "tests/flightmodel/bridges/packets.hpp"
 

@@ -1,7 +1,7 @@
 // The beginning of a participant's GUID that its certificate's name gives.
-#include "gateway/dds/senders.hpp"
-
 #include <gtest/gtest.h>
+
+#include "gateway/dds/topics.hpp"
 
 namespace yars::gateway::dds {
 namespace {

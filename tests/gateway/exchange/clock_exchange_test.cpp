@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "databuffer/session/clock_changes.hpp"
+#include "databuffer/session/session_changes.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {

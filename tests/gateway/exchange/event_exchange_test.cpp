@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gateway/exchange/progress.hpp"
+#include "gateway/exchange/history_progress.hpp"
 #include "tests/gateway/exchange/event_fixture.hpp"
 #include "tests/gateway/random_seed.hpp"
 

@@ -1,12 +1,11 @@
 // Ticks, sweeps and latched traffic of the host that has the radar model.
-#include "gateway/exchange/history_exchange.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
 #include "gateway/exchange/history_progress.hpp"
+#include "gateway/exchange/model_exchange.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {

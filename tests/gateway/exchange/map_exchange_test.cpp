@@ -1,12 +1,11 @@
 // Patch maps of the host that has the radar model.
-#include "gateway/exchange/map_exchange.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
 #include "databuffer/session/picture_pool.hpp"
+#include "gateway/exchange/model_exchange.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {

@@ -1,12 +1,11 @@
 // What a gateway leaves in the segment for the next one.
-#include "gateway/exchange/progress.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <random>
 #include <string>
 
+#include "gateway/exchange/history_progress.hpp"
 #include "tests/gateway/random_seed.hpp"
 
 namespace yars::gateway {

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "databuffer/messages/record_hashes.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "gateway/exchange/context.hpp"
 #include "tests/databuffer/session/open_session.hpp"

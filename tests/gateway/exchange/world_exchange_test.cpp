@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "databuffer/session/session_world.hpp"
-#include "gateway/exchange/progress.hpp"
+#include "databuffer/session/session_changes.hpp"
+#include "gateway/exchange/history_progress.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 #include "world/world_edit.hpp"
 #include "world/world_values.hpp"

@@ -11,7 +11,7 @@
 
 #include "config/schema/load.hpp"
 #include "gateway/dds/link.hpp"
-#include "gateway/host_id.hpp"
+#include "gateway/host_agreement.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
 // Tests of installed_file() and installed_folder(), which find a configuration or route by its name alone.
-#include "lib/file/file_search.hpp"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "lib/file/text_file.hpp"
 
 namespace yars::file {
 namespace {

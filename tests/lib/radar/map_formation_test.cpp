@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 
 namespace yars::radar {
 namespace {

@@ -11,9 +11,8 @@
 
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
-#include "lib/radar/route.hpp"
 #include "lib/random/counter_rng.hpp"
 
 namespace yars::radar {

@@ -1,10 +1,10 @@
 // Distances between words, and the valid word that a misspelled word means.
-#include "lib/text/nearest_word.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
+
+#include "lib/text/plain_text.hpp"
 
 namespace yars::text {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/polar_ground_simd.hpp"
 #include "model/terrain/sampling/cell_view.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/terrain/shapes.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
 #include "model/hrm/map_image.hpp"
 #include "tests/lib/simd/vector_targets.hpp"
 

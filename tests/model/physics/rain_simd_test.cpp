@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "lib/geo/earth.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 #include "tests/lib/simd/vector_targets.hpp"
 #include "tests/model/physics/decibels.hpp"

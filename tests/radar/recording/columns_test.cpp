@@ -7,7 +7,7 @@
 #include <cstring>
 #include <random>
 
-#include "radar/recording/compression.hpp"
+#include "radar/recording/block.hpp"
 
 namespace yars::recording {
 namespace {

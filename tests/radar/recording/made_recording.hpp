@@ -15,8 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "radar/recording/recording_reader.hpp"
-#include "radar/recording/recording_writer.hpp"
+#include "radar/recording/recording_io.hpp"
 
 namespace yars::test {
 

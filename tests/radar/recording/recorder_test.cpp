@@ -8,8 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "radar/recording/recording_reader.hpp"
-#include "radar/recording/recording_writer.hpp"
+#include "radar/recording/recording_io.hpp"
 #include "tests/databuffer/session/open_session.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"

@@ -8,7 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
 #include "shm/ring_buffers.hpp"
 #include "tests/shm/child_process.hpp"

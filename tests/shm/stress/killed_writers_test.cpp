@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <random>
 
-#include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
 #include "shm/ring_buffers.hpp"
 #include "tests/shm/child_process.hpp"

@@ -9,9 +9,8 @@
 #include "lib/radar/configuration.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
-#include "tools/trade/candidate.hpp"
-#include "tools/trade/scan_errors.hpp"
 #include "tools/trade/scenes.hpp"
+#include "tools/trade/trade_errors.hpp"
 #include "tools/trade/trade_table.hpp"
 
 namespace yars::tools::trade {

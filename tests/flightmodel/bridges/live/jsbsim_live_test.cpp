@@ -14,7 +14,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "flightmodel/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge.hpp"
 #include "lib/geo/frames.hpp"
 #include "tests/flightmodel/bridges/live/bridged_set.hpp"
 #include "tests/flightmodel/bridges/live/udp_peer.hpp"

@@ -1,10 +1,10 @@
 // Edges of triangles seen from above: the cheap check agrees with the length of the longest edge.
-#include "model/scene/placement/plan_geometry.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
+
+#include "model/scene/placement/geometry.hpp"
 
 namespace yars::model::scene {
 namespace {

@@ -1,8 +1,6 @@
 // Scatterers: the faces in each ground square, summed to one scatterer. At each size of square (level) the areas add up
 // to the area of the scene's faces.
 // SphereTree: a search finds all balls that satisfy its condition.
-#include "model/scene/placement/scatterers.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "lib/geo/frames.hpp"
 #include "model/scene/placement/placed_scene.hpp"
+#include "model/scene/placement/scene_view.hpp"
 #include "tests/model/scene/support.hpp"
 #include "tests/model/terrain/shapes.hpp"
 

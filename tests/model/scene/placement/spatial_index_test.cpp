@@ -1,6 +1,4 @@
 // GridIndex against a test of every disc: at middle latitudes, at the antimeridian and about both poles.
-#include "model/scene/placement/spatial_index.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/random/counter_rng.hpp"
+#include "model/scene/placement/geometry.hpp"
 
 namespace yars::model::scene {
 namespace {

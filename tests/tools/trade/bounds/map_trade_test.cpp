@@ -7,9 +7,9 @@
 #include "model/scene/index/scene_store.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tests/model/terrain/shapes.hpp"
-#include "tools/trade/candidate.hpp"
-#include "tools/trade/map_errors.hpp"
 #include "tools/trade/scenes.hpp"
+#include "tools/trade/trade_errors.hpp"
+#include "tools/trade/trade_table.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::tools::trade {
