@@ -120,11 +120,14 @@ class Request:
 
     def of(self, given):
         """The request with the arguments given."""
-        fields = {}
+        fields, keys = {}, {}
         for key, value in given.items():
             name = key if key in self.rows else self._renamed(key)
-            if name in fields:
-                raise TypeError(f"{self.function}: expected {name} once, found it twice: {key} is an older word for it")
+            if name in keys:
+                older = key if key != name else keys[name]
+                raise TypeError(f"{self.function}: expected {name} once, found it twice: "
+                                f"{older} is an older word for it")
+            keys[name] = key
             kind, optional, low, high = self.rows[name]
             value = plain(value)
             if value is not None or not (optional or kind == "truth value"):

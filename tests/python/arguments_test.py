@@ -106,6 +106,12 @@ class Arguments(Folder):
         self.assertTrue(files)
         for file in files:
             self.assertEqual((pathlib.Path(folder) / file).read_bytes(), (self.folder / "same" / file).read_bytes())
+        area = {"south": 36, "west": -124, "cells_lat": 2, "cells_lon": 2, "level": 0}
+        kept = [yars.Terrain.generate(self.folder / name, **area, seed=seed) and
+                sorted(path.name for path in (self.folder / name).rglob("*.*"))
+                for name, seed in (("mix", 1), ("mix", 9), ("other", 9))]
+        self.assertTrue(kept[0])
+        self.assertEqual(kept[1], kept[2], "no cell of the landscape before, also where there is sea now")
         terrain = yars.Terrain(folder)
         rng = np.random.default_rng(4)
         latitude, longitude = rng.uniform(36.5, 38.5, 500), rng.uniform(-123.5, -121.5, 500)
@@ -163,6 +169,8 @@ class Arguments(Folder):
             self.assertEqual((caught.exception.field, caught.exception.high), (field, high))
         with self.assertWarnsRegex(DeprecationWarning, "scan_width is an older word for width_deg"):
             self.refused(ValueError, "width_deg: expected 1 to 120 deg", lambda: yars.trade(scan_width=121))
+        for both in ({"scan_width": 40, "width_deg": 40}, {"width_deg": 40, "scan_width": 40}):
+            self.refused(TypeError, "found it twice: scan_width is an older word", lambda both=both: yars.trade(**both))
         self.refused(TypeError, "knob: expected a text", lambda: yars.trade(knob=3))
 
     def test_faults_of_guf_are_structures(self):

@@ -80,6 +80,8 @@ class Faults(unittest.TestCase):
         self.fault(GOOD.replace("{uniform: [5, 18]}", "{choice: []}"), 5, "values in {choice: ...}")
         self.fault(GOOD.replace("{uniform: [5, 18]}", "{log_uniform: [0.01, 5], uniform: [1, 2]}"), 5,
                    "one distribution", "found 2")
+        for key in ("knobs: {samples: %s}", "settings: {Sea: {state: %s}}"):
+            self.fault(GOOD + "radar: {" + key % ("1" + 400 * "0") + "}\n", 7, "a number below 1e30 for radar.")
         self.fault(GOOD + "chip: {looks: {log_uniform: [1, 2]}}\n", 7, "whole number chip.looks")
 
     def test_places(self):

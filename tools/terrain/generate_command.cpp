@@ -103,18 +103,14 @@ class Generation {
   void work(const parallel::GoesOn& goes_on) {
     for (std::size_t number = next_++; number < corners_.size() && !stop_; number = next_++) {
       const CellCorner corner = corners_[number];
-      std::string note;
-      if (request_.sea || landscape_.may_have_land(corner)) {
-        try {
-          const auto made = make(corner, goes_on);
-          if (!made) return fail(made.error());
-          note = *made;
-        } catch (const parallel::Stopped&) {
-          return;
-        }
+      try {
+        const auto note = request_.sea || landscape_.may_have_land(corner) ? make(corner, goes_on) : leave_out(corner);
+        if (!note) return fail(note.error());
+        const std::lock_guard lock(mutex_);
+        progress_.done(*note);
+      } catch (const parallel::Stopped&) {
+        return;
       }
-      const std::lock_guard lock(mutex_);
-      progress_.done(note);
     }
   }
 
@@ -124,7 +120,7 @@ class Generation {
     const worldgen::MadeCell made = landscape_.make(corner, dted::kPostsOfLevel[request_.level],
                                                     dted_columns(corner, request_.level), threads_per_cell_, goes_on);
     const bool all_sea = made.cell.highest_m() <= 0;
-    if (all_sea && !request_.sea) return std::string();
+    if (all_sea && !request_.sea) return leave_out(corner);
     // The culture is written before the cell, so that no new cell is left with an older culture or without its own.
     const std::filesystem::path target = std::filesystem::path(folder_) / dted_name(corner, request_.level);
     const auto culture = request_.culture ? write_culture(culture_path(target), made.culture) : remove_culture(target);
@@ -134,6 +130,16 @@ class Generation {
     written_ += all_sea ? 0 : 1;
     return path->string() + "  " + std::to_string(std::lround(made.cell.lowest_m())) + " to " +
            std::to_string(std::lround(made.cell.highest_m())) + " m";
+  }
+
+  // A cell without a file: one of an earlier landscape goes.
+  error::Expected<std::string> leave_out(CellCorner corner) {
+    const std::filesystem::path target = std::filesystem::path(folder_) / dted_name(corner, request_.level);
+    if (const auto culture = remove_culture(target); !culture) return tl::unexpected(culture.error());
+    std::error_code problem;
+    std::filesystem::remove(target, problem);
+    if (problem) return error::fail(target.string(), "a cell that can be removed", problem.message());
+    return std::string();
   }
 
   void fail(const error::Error& error) {

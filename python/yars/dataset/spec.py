@@ -232,9 +232,13 @@ class _SpecReader(Reader):
         if node.style is None:
             for kind in (int, float):
                 try:
-                    return kind(node.value)
+                    value = kind(node.value)
                 except ValueError:
-                    pass
+                    continue
+                if abs(value) >= 1e30:
+                    self.fault(node, f"a number below 1e30 for {key.path}")
+                    return None
+                return value
             if node.value in ("true", "false"):
                 return node.value == "true"
         return node.value
