@@ -32,7 +32,7 @@ TEST(UniformField, HasAVarianceOfItsMeanSquaredOverTheLooks) {
   for (const int size : {240, 480, 777, 1024}) {
     hrm::MapImage image(size);
     image.power.assign(image.power.size(), 1.0F);
-    for (const int looks : {1, 2, 3}) {
+    for (const int looks : {1, 2, 3, 5}) {
       std::vector<std::uint8_t> picture;
       picture.resize(image.power.size());
       hrm::form_video(configuration.high_resolution, image, {0.0, looks, 1}, 0, image.size, picture);
