@@ -1,7 +1,9 @@
 // Other DDS participants of the domain that are no hosts of this session, so that a user learns why hosts do not meet.
 // Inputs: the topics about participants and writers that every DDS program has (DCPSParticipant, DCPSPublication).
 // Outputs: one line for each gateway that was heard and yet exchanges nothing: it has another session, or DDS Security
-//   on one side only. What others write about themselves is not trusted: it appears in messages alone.
+//   on one side only. The name of a gateway whose handshake was lost.
+// What others write about themselves is not trusted. It appears in messages. With security a host's name also decides
+// whether this gateway joins again, which RejoinLimit bounds.
 // Units: times [ns], CLOCK_MONOTONIC.
 #pragma once
 

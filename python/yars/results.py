@@ -396,8 +396,9 @@ def trade(terrain=None, radar=None, *, maps=False, csv=None, out=None, **fields)
     Returns a dict of the layout of `yars trade --out FILE.json`, which yars.plot.trade_front draws: points, a dict for
     each candidate with mean, worst, worst_scene and scenes of each column (None: no value); scenes; axes.
     terrain: Terrain; None: that of the radar's configuration, else the built-in hills. radar: Radar whose configuration
-    is used; its fidelity is not. fields: the options of the command, such as presets="1996,standard",
-    knob=["samples=120,240"], base, ruler, repeat, scene or view (lists of texts), width_deg. out, csv: files to write.
+    is used; its fidelity is not. fields: those of ScanTradeRequest or MapTradeRequest (yars/results.pyi), such as
+    presets="1996,standard", knob=["samples=120,240"], base, ruler, repeat, scene or view (lists of texts), width_deg.
+    out, csv: files to write.
     >>> rows = yars.trade(presets="draft", scene="37,-122,15000,60,10", repeat=1, ruler_samples=60)
     >>> rows["points"][0]["point"], rows["scenes"]
     ('draft', ['37 -122 15000 ft 60 deg 10 NM'])
