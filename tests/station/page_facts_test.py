@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The list of licences has each package of package-lock.json. usage: page_facts_test.py"""
+"""The list of licences has each package of package-lock.json, and each runs with the Node.js of each suite.
+usage: page_facts_test.py"""
 import json
 import pathlib
 import re
@@ -8,6 +9,18 @@ import unittest
 
 sys.dont_write_bytecode = True
 TOP = pathlib.Path(__file__).resolve().parents[2]
+
+
+OLDEST_NODE = 18  # of Debian 12
+
+
+class Packages(unittest.TestCase):
+    def test_each_runs_with_the_oldest_node(self):
+        packages = json.loads((TOP / "station/web/package-lock.json").read_text(encoding="utf-8"))["packages"]
+        needs = {path: one["engines"]["node"] for path, one in packages.items() if "engines" in one}
+        self.assertIn("node_modules/playwright-core", needs)
+        for path, need in needs.items():
+            self.assertLessEqual(int(re.fullmatch(r">=(\d+)[\d.]*", need)[1]), OLDEST_NODE, f"{path} needs {need}")
 
 
 class Licences(unittest.TestCase):

@@ -5,9 +5,9 @@ value's name.
 A copy is the name of a value, and its two limits one after the other, in the unit of people or in that of the record,
 on the same line or, but in documents, up to LINES lines later. A value with the limits of COMMON alone is not searched
 for. usage: copies_test.py"""
+import os
 import pathlib
 import re
-import subprocess
 import sys
 import unittest
 
@@ -91,8 +91,12 @@ def copies(file, text):
 
 
 def files():
-    names = subprocess.run(["git", "ls-files"], cwd=TOP, capture_output=True, text=True, check=True).stdout.splitlines()
-    return [name for name in names if name.endswith(SOURCES) and not name.startswith(ELSEWHERE)]
+    """Also without git, as in a source archive."""
+    for folder, folders, names in os.walk(TOP):
+        folders[:] = [name for name in folders if name not in ("build", "node_modules") and not name.startswith(".")]
+        for path in sorted(pathlib.Path(folder, name).relative_to(TOP).as_posix() for name in names):
+            if path.endswith(SOURCES) and not path.startswith(ELSEWHERE):
+                yield path
 
 
 class Copies(unittest.TestCase):
