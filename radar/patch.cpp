@@ -72,6 +72,11 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
     radar::fail(std::move(*problem));
 }
 
+// A mover has the defaults of the world's record.
+using MoverFields = values::WorldMover;
+static_assert(Mover{}.cross_section_m2 == MoverFields::cross_section.initial &&
+              Mover{}.height_m == MoverFields::height.initial * MoverFields::height.factor);
+
 model::physics::MovingPoint moving_point(const Mover& mover, const hrm::PatchOrder& order) {
   return model::physics::moving_point({{mover.latitude_deg, mover.longitude_deg},
                                        geo::Bearing::degrees(mover.heading_deg),

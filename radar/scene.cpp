@@ -76,8 +76,12 @@ Expected<Scene> Scene::read(const std::vector<std::string>& files, const Terrain
   return radar::guarded([&] {
     const radar::Warn warn = radar::warn_of(call);
     std::vector<radar::Scene> scenes;
-    if (auto added = model::scene::add_scenes(scenes, files, without); !added)
-      radar::fail(error::usage_error(added.error()));
+    if (auto added = model::scene::add_scenes(scenes, files, without); !added) {
+      Error& problem = added.error();
+      if (problem.subject == "scene_without") problem.subject = "without";
+      if (scenes.empty() && !problem.action.empty()) problem.action = "give a file and a name";
+      radar::fail(error::usage_error(problem));
+    }
     std::vector<std::string> problems;
     const auto index = model::scene::index_scenes(scenes, problems);
     if (!index) radar::fail(index.error());

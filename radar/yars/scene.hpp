@@ -33,10 +33,10 @@ struct SceneObject {
 struct Mover {
   double latitude_deg = 0.0;
   double longitude_deg = 0.0;
-  double heading_deg = 0.0;         // true
-  double speed_kt = 0.0;            // over ground
-  double cross_section_m2 = 100.0;  // radar cross section
-  double height_m = 0.0;            // above ground
+  double heading_deg = 0.0;          // true
+  double speed_kt = 0.0;             // over ground
+  double cross_section_m2 = 1000.0;  // radar cross section
+  double height_m = 6.096;           // of the reflecting point above the ground
 };
 
 class YARS_EXPORT Scene {

@@ -163,7 +163,11 @@ class Arguments(Folder):
                 (lambda: yars.Terrain.generate(self.folder / "x", south=89, cells_lat=3), "cells_lat", 1.0),
                 (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(91, 2)), "origin", None),
                 (lambda: yars.trade(width_deg=121), "width_deg", 120.0),
-                (lambda: yars.trade(base="fast"), "base", None)):
+                (lambda: yars.trade(base="fast"), "base", None),
+                (lambda: yars.trade(presets="draft", scene=["37.5,-121.5,-1000,0,5"]), "scene", None),
+                (lambda: yars.trade(maps=True, presets="draft", view=["37.5,-121.5,-1000,37.7,-121.5,0.67"]), "view",
+                 None),
+                (lambda: yars.trade(maps=True, presets="draft", scene_without=["tower"]), "scene_without", None)):
             with self.assertRaises(ValueError) as caught:
                 call()
             self.assertEqual((caught.exception.field, caught.exception.high), (field, high))

@@ -77,6 +77,14 @@ geo::GeoPoint default_position(const std::string& directory) {
   return {cell.south_deg + 0.5, cell.west_deg + 0.5};
 }
 
+void check_above_ground(const char* field, geo::AltitudeMsl altitude, double ground_m) {
+  auto problem = radar::beneath_ground(altitude, ground_m);
+  if (!problem) return;
+  problem->subject = field;
+  problem->action = "give a greater ALT_FT";
+  throw_failure(*problem);
+}
+
 double thread_ms() {
   std::timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -108,6 +116,7 @@ class SceneTerrain {
     auto view = (*store)->prepare({request_.pose.position, request_.range.metres(), detail});
     radar::check_terrain_read(warn_, configuration_.directory, **store);
     left_out_.add(**store);
+    check_above_ground("scene", request_.pose.altitude, view->elevation_m(request_.pose.position));
     return *by_detail_.emplace(detail, std::move(view)).first->second;
   }
 

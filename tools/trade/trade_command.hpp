@@ -42,6 +42,9 @@ void write_trade_files(const std::string& csv, const std::string& out, const Tra
 // Centre of the cell in the middle of a directory's index, which is sorted from south to north, then from west to east.
 // For an empty name (built-in hills): 37 N 122 W. Throws if the directory is missing or has no usable cell.
 geo::GeoPoint default_position(const std::string& directory);
+// Throws unless the aircraft of a scene or view is above the ground. `field`: of the request. `ground_m` [m] MSL; NaN:
+// void, which is not checked.
+void check_above_ground(const char* field, geo::AltitudeMsl altitude, double ground_m);
 double thread_ms();  // [ms] CPU time of the calling thread
 
 }  // namespace yars::tools

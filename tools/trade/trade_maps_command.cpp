@@ -105,7 +105,9 @@ class ViewTrade {
     return environment_.of(hrm::PatchFormation(with(fidelity), {}).begin(order_));
   }
   trade::MapObservation observe(const radar::Fidelity& fidelity) {
-    return trade::observe_map(with(fidelity), order_, environment_of(fidelity), thread_ms, goes_on_);
+    const hrm::PatchEnvironment environment = environment_of(fidelity);
+    check_above_ground("view", order_.altitude, environment.path->elevation_m(order_.apex));
+    return trade::observe_map(with(fidelity), order_, environment, thread_ms, goes_on_);
   }
   // Median time of a map [ms] with warm caches, on one thread, with noise as the fidelity sets it. The reference
   // algorithm is slow, so it does not run again: its time is found.took_ms, from one run without noise.

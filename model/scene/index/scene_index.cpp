@@ -54,8 +54,8 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
 error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
   if (scenes.empty() || all.unmatched_names().empty())
-    return error::fail("--scene-without", "a scene, and the name of a part to leave out",
-                       scenes.empty() ? "no scene" : "an empty name", "give --scene and a name");
+    return error::fail("scene_without", "a scene, and the name of a part to leave out",
+                       scenes.empty() ? "no scene" : "an empty name", "give `scene` and a name");
   bool applied = false;
   for (radar::Scene& scene : scenes) {
     std::error_code code;
@@ -69,7 +69,7 @@ error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::stri
     scene.without += (scene.without.empty() ? "" : ",") + name;
   }
   if (applied) return {};
-  return tl::unexpected(*all.unmatched_error("--scene-without"));
+  return tl::unexpected(*all.unmatched_error("scene_without"));
 }
 
 }  // namespace
