@@ -4,10 +4,10 @@
 usage: benchmark.py BIN [--presses 200] [--seconds 20] [--line LOSS,DELAY,JITTER] [--secure]
 BIN has the programs of a build with YARS_TESTS and YARS_BENCHMARKS. Needs root, Xvfb and ddsperf (cyclonedds-tools).
 
-Latency: from the press of DCL on the display's host to the new radar state there, and to the frame (latency_benchmark). On
-one host, then with flight-model, state-machine and radar-model on three others. Load: processor time of each gateway as a
-percentage of a core. Bandwidth: bytes of the records that each topic sends in a second, to one receiver. ddsperf: half of
-the round trip of 12 bytes between two of the hosts while the set runs. Prints one JSON object.
+Latency: from the press of DCL on the display's host to the new radar state there, and to the frame (latency_benchmark).
+On one host, then with flight-model, state-machine and radar-model on three others. Load: processor time of each gateway
+as a percentage of a core. Bandwidth: bytes of the records that each topic sends in a second, to one receiver. ddsperf:
+half of the round trip of 12 bytes between two of the hosts while the set runs. Prints one JSON object.
 """
 import argparse
 import json
@@ -25,7 +25,8 @@ FLIGHT = ("flight-model", ["--source", "fixed:37.5,-123.0,15000,90,480"])
 DISPLAY = ("radar-display", ["--size", "480"])
 FOUR = {"a": [FLIGHT], "b": [("state-machine", [])], "c": [("radar-model", ["--samples", "1024"])], "d": []}
 ONE = {"d": [FLIGHT, ("state-machine", []), ("radar-model", ["--samples", "1024"])]}
-DDSPERF = """<CycloneDDS><Domain Id="any"><General><Interfaces><NetworkInterface name="eth0" multicast="false"/></Interfaces>
+DDSPERF = """<CycloneDDS><Domain Id="any">
+<General><Interfaces><NetworkInterface name="eth0" multicast="false"/></Interfaces>
 <AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>
 <MaxAutoParticipantIndex>4</MaxAutoParticipantIndex><Peers>{peers}</Peers></Discovery></Domain></CycloneDDS>"""
 
@@ -57,7 +58,8 @@ def latency(spread, presses):
 
 
 def topics(spread, host):
-    return {one["name"]: one for one in json.loads(spread.yars(host, "status", "--json", code=None))["network"]["topics"]}
+    status = json.loads(spread.yars(host, "status", "--json", code=None))
+    return {one["name"]: one for one in status["network"]["topics"]}
 
 
 def ddsperf(spread):
@@ -74,8 +76,8 @@ def over_four_hosts(options, line, secure):
     folder = tempfile.TemporaryDirectory()
     extra = ""
     if secure:
-        spread_set.lab.subprocess.run([str(TOP / "scripts/network_identities"), folder.name + "/set", *FOUR], check=True,
-                                      stdout=spread_set.lab.subprocess.DEVNULL)
+        spread_set.lab.subprocess.run([str(TOP / "scripts/network_identities"), folder.name + "/set", *FOUR],
+                                      check=True, stdout=spread_set.lab.subprocess.DEVNULL)
         extra = ':security "' + folder.name + '/set/{host}"'
     with spread_set.SpreadSet(options.programs, FOUR, options=extra) as spread:
         spread.start()
@@ -94,7 +96,8 @@ def over_four_hosts(options, line, secure):
             for name, topic in after[host].items():
                 rate = (topic["sent_bytes"] - before[host][name]["sent_bytes"]) / elapsed
                 rates[name] = rates.get(name, 0.0) + rate
-        result["bytes_per_s"] = {name: round(rate) for name, rate in sorted(rates.items(), key=lambda item: -item[1]) if rate >= 1}
+        result["bytes_per_s"] = {name: round(rate)
+                                 for name, rate in sorted(rates.items(), key=lambda item: -item[1]) if rate >= 1}
         if not secure:
             result["ddsperf"] = ddsperf(spread)
     folder.cleanup()

@@ -4,8 +4,8 @@
 usage: endurance.py BIN [--minutes 60] [--line LOSS,DELAY,JITTER] [--out FOLDER]
 BIN has the programs of a build, with wire and observer. Needs root.
 
-An event is pressed each second on the hosts in turn. Each 10 s the resident memory of the gateways is read. At the end both
-recordings are replayed: their sweeps have to be equal to those computed from their ticks. Prints one JSON object.
+An event is pressed each second on the hosts in turn. Each 10 s the resident memory of the gateways is read. At the end
+both recordings are replayed: their sweeps have to be equal to those computed from their ticks. Prints one JSON object.
 """
 import argparse
 import json
@@ -38,7 +38,8 @@ def main():
         spread.start()
         spread.lab.set_line(loss=loss, delay=delay, jitter=jitter)
         recorders = [spread.lab.start(host, str(spread.programs / "yars"),
-                                      ["record", "--session", spread_set.SESSION, "--overwrite", str(out / f"endurance_{host}.yars")])
+                                      ["record", "--session", spread_set.SESSION, "--overwrite",
+                                       str(out / f"endurance_{host}.yars")])
                      for host in "cd"]
         spread.yars("a", "inject", "power opr")
         campaign = faults.Campaign(spread, 1)
@@ -53,7 +54,8 @@ def main():
                 for host, process in spread.gateways.items():
                     memory[host].append(faults.memory_kib(process))
             if second % 60 == 0:
-                print(f"{second // 60:4d} min: " + ", ".join(f"{host} {kib[-1]} KiB" for host, kib in memory.items()), flush=True)
+                print(f"{second // 60:4d} min: " + ", ".join(f"{host} {kib[-1]} KiB" for host, kib in memory.items()),
+                      flush=True)
             time.sleep(max(0.0, begin + second - time.monotonic()))
         events = campaign.judge([])
         states = spread.states()
@@ -64,7 +66,8 @@ def main():
                   "memory_kib": {host: {"first": kib[0], "middle": kib[len(kib) // 2], "last": kib[-1], "max": max(kib)}
                                  for host, kib in memory.items() if kib},
                   "load": {host: round(state["network"]["load"], 4) for host, state in states.items()},
-                  "lost": {host: sum(one["lost"] for one in state["network"]["hosts"].values()) for host, state in states.items()},
+                  "lost": {host: sum(one["lost"] for one in state["network"]["hosts"].values())
+                           for host, state in states.items()},
                   "records": {host: spread.ask(host, "verdict") for host in spread.layout},
                   "replay": {host: replayed(spread, host, str(out / f"endurance_{host}.yars")) for host in "cd"}}
     print(json.dumps(report))

@@ -70,8 +70,9 @@ class Campaign:
     # ---- Recovery ----
 
     def recover(self, hosts, since):
-        """Seconds from `since` until the last moment of a disturbance: a role missing or held twice, an old ownship or status,
-        different epochs, sweeps that stand still, an event that waits. Ends when all has been well for CALM_S."""
+        """Seconds from `since` until the last moment of a disturbance: a role missing or held twice, an old ownship or
+        status, different epochs, sweeps that stand still, an event that waits. Ends when all has been well for
+        CALM_S."""
         hosts = sorted(hosts)
         fresh, moved, last_bad, problem = {}, {}, since, "nothing yet"
         while True:
@@ -164,8 +165,8 @@ class Campaign:
                 "twice": [one for one in twice if one not in both], "in_both_parts": len(both)}
 
     def in_two_parts(self, twice, faults):
-        """True if the sender was cut off from the state machine: then its own standby applied the event in the part that
-        yields, and the state machine that stays applies it, too."""
+        """True if the sender was cut off from the state machine: then its own standby applied the event in the part
+        that yields, and the state machine that stays applies it, too."""
         number, host, ((first, _), *_) = twice
         for fault, following in zip(faults, [*faults[1:], {"tick": 1 << 60}]):
             if fault["kind"] in ("cut host", "stop host") and fault["tick"] - 20 <= first <= following["tick"]:
@@ -188,10 +189,11 @@ def summary(report):
     for entry in report["faults"]:
         by_kind.setdefault(entry["kind"], []).extend(entry["times_s"])
     every = [one for times in by_kind.values() for one in times]
-    figures = {kind: {"n": len(times), "p50_s": round(percentile(times, 0.5), 3), "p99_s": round(percentile(times, 0.99), 3),
-                      "max_s": round(max(times), 3)} for kind, times in [*by_kind.items(), ("all", every)] if times}
-    return {"faults": len(report["faults"]), "recovery": figures, "events": report["events"], "records": report["records"],
-            "memory_kib": report["memory_kib"]}
+    figures = {kind: {"n": len(times), "p50_s": round(percentile(times, 0.5), 3),
+                      "p99_s": round(percentile(times, 0.99), 3), "max_s": round(max(times), 3)}
+               for kind, times in [*by_kind.items(), ("all", every)] if times}
+    return {"faults": len(report["faults"]), "recovery": figures, "events": report["events"],
+            "records": report["records"], "memory_kib": report["memory_kib"]}
 
 
 def main():

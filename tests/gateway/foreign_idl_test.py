@@ -26,7 +26,8 @@ def must(what, *command):
 
 def why_not():
     """Why the program cannot be built here; empty where it can."""
-    if shutil.which("idlc") is None or shutil.which("pkg-config") is None or run("pkg-config", "--exists", "CycloneDDS")[0] != 0:
+    if (shutil.which("idlc") is None or shutil.which("pkg-config") is None or
+            run("pkg-config", "--exists", "CycloneDDS")[0] != 0):
         return "idlc or Cyclone DDS is not installed; scripts/setup --network installs both"
     return ""
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Lockstep over four hosts: the whole interface test of tests/endtoend, and sweeps that equal those of one host.
 
-usage: network_lockstep_test.py BIN            BIN: folder of the programs; ends with 77 and a word where there is no lab
+usage: network_lockstep_test.py BIN            BIN: folder of the programs; ends with 77 and a word where there is no
+                                               lab
        network_lockstep_test.py --on FOLDER PROGRAM ARGUMENTS    starts a role on its host, for YARS_TEST_HOSTS
 
-The C++ test starts its roles by the second form, which asks the first for gateways of a new session by a file in FOLDER.
+The C++ test starts its roles by the second form, which asks the first for gateways of a new session by a file in
+FOLDER.
 """
 import json
 import os
@@ -94,7 +96,8 @@ def the_interface_test_holds_over_four_hosts(programs):
             test.kill()
             test.wait()
         said = output.read_text()
-        assert test.returncode == 0 and "[  PASSED  ] 2 tests" in said and sessions == SESSIONS, f"{said}\n{spread.logs()}"
+        assert (test.returncode == 0 and "[  PASSED  ] 2 tests" in said and
+                sessions == SESSIONS), f"{said}\n{spread.logs()}"
 
 
 # ---- Hashes ----
@@ -106,7 +109,8 @@ def fly(spread, host_of, recording):
     plan = f"flight-model,input-monitor,state-machine,radar-model,recorder@{TICKS}"
     common = ["--session", spread.session, "--lockstep", plan]
     roles = (("yars", ["record", *common, "--patches", recording]), ("flight-model", [*common, *spread_set.FLIGHT]),
-             ("input-monitor", [*common, "--source", f"script:{script}"]), ("state-machine", common), ("radar-model", common))
+             ("input-monitor", [*common, "--source", f"script:{script}"]), ("state-machine", common),
+             ("radar-model", common))
     processes = [spread.lab.start(host_of(role), str(spread.programs / role), arguments) for role, arguments in roles]
     for process in processes:
         assert process.wait(WITHIN_S) == 0, (process.text(), spread.logs())
@@ -167,7 +171,8 @@ def main():
     if reason := spread_set.why_skipped(programs):
         print(f"skipped: {reason}")
         return 77
-    spread_set.run_tests((a_run_ends_when_a_host_is_gone, sweeps_equal_those_of_one_host, the_interface_test_holds_over_four_hosts), programs)
+    spread_set.run_tests((a_run_ends_when_a_host_is_gone, sweeps_equal_those_of_one_host,
+                          the_interface_test_holds_over_four_hosts), programs)
     return 0
 
 

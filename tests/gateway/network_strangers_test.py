@@ -19,7 +19,8 @@ WITHIN_S = 60.0
 ROLES = {"a": [("flight-model", FLIGHT)], "b": [("state-machine", [])], "c": [("radar-model", [])], "d": []}
 SWEEPS = 200
 FOREIGN = """<CycloneDDS><Domain Id="0">
- <General><Interfaces><NetworkInterface name="eth0" multicast="false"/></Interfaces><AllowMulticast>false</AllowMulticast></General>
+ <General><Interfaces><NetworkInterface name="eth0" multicast="false"/></Interfaces>
+  <AllowMulticast>false</AllowMulticast></General>
  <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>3</MaxAutoParticipantIndex>
   <Peers>{peers}</Peers></Discovery>
  <SharedMemory><Enable>false</Enable></SharedMemory>
@@ -54,7 +55,8 @@ def count_lines(process, text):
 
 
 def await_status(spread, host, text):
-    lab.wait_until(lambda: text in spread.yars(host, "status", code=None), f"`yars status` on {host} that says {text!r}", WITHIN_S, every_s=0.3)
+    lab.wait_until(lambda: text in spread.yars(host, "status", code=None),
+                   f"`yars status` on {host} that says {text!r}", WITHIN_S, every_s=0.3)
 
 
 # ---- Differences ----
@@ -66,7 +68,8 @@ def hosts_with_another_configuration_or_terrain_are_named(programs, build):
             (folder / f"terrain_{host}").mkdir()
             (folder / f"terrain_{host}" / "N37W123.hgt").write_bytes(bytes(size))
         for host, configuration in (("a", "apg68.guf"), ("b", "apg70.guf")):
-            spread.start_gateway(host, ["--config", lab.TOP / "config" / configuration, "--terrain", folder / f"terrain_{host}"])
+            spread.start_gateway(host, ["--config", lab.TOP / "config" / configuration,
+                                        "--terrain", folder / f"terrain_{host}"])
         for host, other in (("a", "b"), ("b", "a")):
             for what in ("configuration", "terrain"):
                 spread.gateways[host].wait_for(f"host {other} has another {what}", WITHIN_S)
@@ -119,10 +122,12 @@ def a_flood_of_rows_has_its_limit(programs, build):
         print(f"left out: {reason}")
         return
     with tempfile.TemporaryDirectory() as name, spread_set.SpreadSet(programs, ROLES) as spread:
-        flood = foreign_idl_test.build(pathlib.Path(name), *build, program=pathlib.Path(__file__).with_name("flood_rows.c"))
+        flood = foreign_idl_test.build(pathlib.Path(name), *build,
+                                       program=pathlib.Path(__file__).with_name("flood_rows.c"))
         sweeping(spread)
         peers = "".join(f'<Peer Address="{spread.lab.address(host)}"/>' for host in ROLES)
-        flooding = spread.lab.start("d", str(flood), [spread.session, int(WITHIN_S)], env={"CYCLONEDDS_URI": FOREIGN.format(peers=peers)})
+        flooding = spread.lab.start("d", str(flood), [spread.session, int(WITHIN_S)],
+                                    env={"CYCLONEDDS_URI": FOREIGN.format(peers=peers)})
         for host in "abc":
             spread.gateways[host].wait_for("topic patch_rows: expected at most", WITHIN_S)
         full = {host: memory_mb(spread.gateways[host]) for host in "abc"}
@@ -131,7 +136,8 @@ def a_flood_of_rows_has_its_limit(programs, build):
         assert all(later[host] < full[host] + FLOOD_MB for host in "abc"), (full, later)
         flooding.kill()
         states = spread.states("abc")
-        spread.wait_for(lambda seen: runs(seen) and all(seen[host]["sweeps"] > states[host]["sweeps"] + 50 for host in "abc"),
+        spread.wait_for(lambda seen: runs(seen) and all(seen[host]["sweeps"] > states[host]["sweeps"] + 50
+                                                        for host in "abc"),
                         "sweeps after the flood", hosts=list("abc"), within_s=WITHIN_S)
         assert all(spread.gateways[host].poll() is None for host in "abc"), spread.logs()
 
@@ -166,12 +172,14 @@ def a_stranger_sees_no_host_and_changes_nothing(programs, build):
         spread.start_observer("e")
         spread.inject("e", "power stby")
         spread.yars("e", "sim", "freeze")
-        spread.wait_for(lambda seen: seen["e"]["machine"] == "here" and not seen["e"]["running"], "a set of its own on e", hosts=["e"])
+        spread.wait_for(lambda seen: seen["e"]["machine"] == "here" and not seen["e"]["running"],
+                        "a set of its own on e", hosts=["e"])
         assert spread.ask("e", "press 7")["pushed"]
         frames, found = count_on_the_line(spread, "d", TEXT)
         assert frames > 100 and found == 0, (frames, found)
         states = spread.wait_for(lambda seen: runs({host: seen[host] for host in ROLES}) and
-                                 all(seen[host]["sweeps"] > before[host]["sweeps"] + 50 for host in ROLES), "sweeps on a to d")
+                                 all(seen[host]["sweeps"] > before[host]["sweeps"] + 50 for host in ROLES),
+                                 "sweeps on a to d")
         for host in ROLES:
             assert set(states[host]["network"]["hosts"]) == set(ROLES) and states[host]["running"], states[host]
             assert states[host]["epoch"] == before[host]["epoch"], (before, states)
@@ -187,15 +195,17 @@ def a_member_that_may_only_read_holds_no_role_and_poses_as_nobody(programs, buil
         return
     hosts = ["a", "b", "c"]
     with spread_set.SpreadSet(programs, ROLES, options=':security "net/{host}"') as spread:
-        subprocess.run([lab.TOP / "scripts/network_identities", spread.lab.folder / "net", *ROLES, "--reads", "d"], check=True,
-                       stdout=subprocess.DEVNULL, timeout=60)
+        subprocess.run([lab.TOP / "scripts/network_identities", spread.lab.folder / "net", *ROLES, "--reads", "d"],
+                       check=True, stdout=subprocess.DEVNULL, timeout=60)
         before = sweeping(spread)
         impostor = spread.lab.start("d", str(programs / "impostor"), [spread.session, spread.network_file("d"), "b", 5])
-        spread.wait_for(lambda seen: all(present(seen[host]) == {*hosts, "d"} for host in hosts), "d, heard by all", hosts=hosts)
+        spread.wait_for(lambda seen: all(present(seen[host]) == {*hosts, "d"} for host in hosts), "d, heard by all",
+                        hosts=hosts)
         while impostor.poll() is None:
             states = spread.states(hosts)
             for host in hosts:
-                assert states[host]["machine"] == before[host]["machine"] and states[host]["model"] == before[host]["model"], states[host]
+                assert (states[host]["machine"] == before[host]["machine"] and
+                        states[host]["model"] == before[host]["model"]), states[host]
                 assert states[host]["epoch"] == before[host]["epoch"] and states[host]["running"], states[host]
                 assert states[host]["network"]["conflicts"] == before[host]["network"]["conflicts"], states[host]
                 assert states[host]["network"]["hosts"]["b"]["flags"] & PRESENT, states[host]
@@ -206,12 +216,15 @@ def a_member_that_may_only_read_holds_no_role_and_poses_as_nobody(programs, buil
         counts = dict(zip(written[::2], map(int, written[1::2])))
         assert min(counts["claims"], counts["events"], counts["answers"], counts["announcements"]) > 50, counts
         assert counts["refused"] > 50 and "requests" not in counts and "worlds" not in counts, counts
-        after = spread.wait_for(lambda seen: runs(seen) and all(seen[host]["sweeps"] > before[host]["sweeps"] + 50 for host in hosts),
+        after = spread.wait_for(lambda seen: runs(seen) and all(seen[host]["sweeps"] > before[host]["sweeps"] + 50
+                                                                for host in hosts),
                                 "sweeps on a to c", hosts=hosts)
         assert all(after[host]["world"] == before[host]["world"] for host in hosts), (before, after)
         assert all(abs(after["a"]["network"]["hosts"][host]["error_ns"]) < 10**9 for host in hosts), after
-        assert count_lines(spread.gateways["a"], "expected samples of the host that the writer's certificate names") > 0, spread.logs()
-        assert count_lines(spread.gateways["a"], "host d claims roles or the clock, and may not write their topics") == 1, spread.logs()
+        assert count_lines(spread.gateways["a"],
+                           "expected samples of the host that the writer's certificate names") > 0, spread.logs()
+        assert count_lines(spread.gateways["a"],
+                           "host d claims roles or the clock, and may not write their topics") == 1, spread.logs()
         spread.inject("a", "power stby")
         spread.wait_for(lambda seen: spread.watch("c").get("power") == "STBY", "power STBY", hosts=hosts)
 

@@ -3,7 +3,8 @@
 the world.
 
 usage: network_test.py BIN [TEST...]       BIN: folder of the programs; ends with 77 and a word where there is no lab
-The tests are functions with one set after another; each leaves the set whole. No time is asserted but the limits of waiting.
+The tests are functions with one set after another; each leaves the set whole. No time is asserted but the limits of
+waiting.
 """
 import json
 import signal
@@ -22,7 +23,8 @@ LAYOUT = {"a": [("flight-model", FLIGHT)],
           "c": [("radar-model", ["--standby"]), ("state-machine", ["--standby"]), ("flight-model", FLIGHT)],
           "d": []}
 WITHIN_S = 60.0
-PILOTS = ("power", "mode", "range_nm", "scan", "gain", "brightness", "declutter", "master")  # what a new machine takes over
+# What a new machine takes over.
+PILOTS = ("power", "mode", "range_nm", "scan", "gain", "brightness", "declutter", "master")
 
 
 class Flight:
@@ -80,7 +82,8 @@ class Flight:
 
 
 def lost(states):
-    return {host: {name: other["lost"] for name, other in state["network"]["hosts"].items()} for host, state in states.items()}
+    return {host: {name: other["lost"] for name, other in state["network"]["hosts"].items()}
+            for host, state in states.items()}
 
 
 ASIDE_DEG = 20.0  # of the nose; the blind zone is 8 degrees either side
@@ -116,7 +119,8 @@ def ships_of_one_host_are_latched_by_the_model_of_another(flight):
     assert spread.ask("d", "ships 3") == {"ships": 3}
     model = flight.host_of("model", before)
     spread.wait_for(lambda states: states[model].get("ships") == 3 and
-                    all(states[host]["ships_latched"] > before[host]["ships_latched"] for host in LAYOUT), "ships on all hosts")
+                    all(states[host]["ships_latched"] > before[host]["ships_latched"] for host in LAYOUT),
+                    "ships on all hosts")
 
 
 BAD_LINE_ROUNDS = 100  # events from each host
@@ -132,7 +136,8 @@ def a_bad_line_loses_no_sweep_and_no_event(flight):
         numbers += flight.press_on(LAYOUT, 1)
         flight.campaign.collect(LAYOUT)
     flight.await_applied(numbers, LAYOUT)
-    spread.wait_for(lambda seen: all(seen[host]["sweeps"] > before[host]["sweeps"] + 200 for host in LAYOUT), "sweeps over the bad line")
+    spread.wait_for(lambda seen: all(seen[host]["sweeps"] > before[host]["sweeps"] + 200 for host in LAYOUT),
+                    "sweeps over the bad line")
     after = flight.await_whole()
     recorder.signal(signal.SIGINT)
     assert recorder.wait(WITHIN_S) == 0, recorder.text()
@@ -160,23 +165,26 @@ def an_instructor_of_any_host_changes_the_world(flight):
         one.join()
     in_effect_everywhere(flight, rain + 13)  # none is lost, though each host has edited the same list
     spread.yars("a", "sim", "freeze")
-    spread.wait_for(lambda seen: all(not one["running"] and one["model_tick"] >= one["sim_ns"] // TICK_NS for one in seen.values()),
-                    "a frozen clock, and all of its ticks")
+    spread.wait_for(lambda seen: all(not one["running"] and one["model_tick"] >= one["sim_ns"] // TICK_NS
+                                     for one in seen.values()), "a frozen clock, and all of its ticks")
     for count, host in ((14, "a"), (15, "d")):
         add_rain(spread, host, 1)
-        spread.wait_for(lambda seen: all(len(one["world_newest"]["rain"]) == rain + count for one in seen.values()), "the newest world")
+        spread.wait_for(lambda seen: all(len(one["world_newest"]["rain"]) == rain + count for one in seen.values()),
+                        "the newest world")
     assert all(len(one["world"]["rain"]) == rain + 13 for one in spread.states().values()), spread.states()
     spread.yars("a", "sim", "run")
     in_effect_everywhere(flight, rain + 15)
     sweeps = spread.states()
-    spread.wait_for(lambda seen: all(seen[host]["sweeps"] > sweeps[host]["sweeps"] + 50 for host in LAYOUT), "sweeps in the new world")
+    spread.wait_for(lambda seen: all(seen[host]["sweeps"] > sweeps[host]["sweeps"] + 50 for host in LAYOUT),
+                    "sweeps in the new world")
     for host, (recorder, recording) in recorders.items():
         recorder.signal(signal.SIGINT)
         assert recorder.wait(WITHIN_S) == 0, recorder.text()
         replayed = spread.replayed(host, recording)
         assert replayed["different"] == 0 and replayed["ticks_lost"] == 0 and replayed["equal"] > 100, (host, replayed)
         items = spread.lab.run(host, str(spread.programs / "yars"), ["replay", "--print", recording], within_s=1800)
-        worlds = [json.loads(line)["world"]["edit"] for line in items.splitlines() if '"world": {' in line or '"world":{' in line]
+        worlds = [json.loads(line)["world"]["edit"] for line in items.splitlines()
+                  if '"world": {' in line or '"world":{' in line]
         assert len(worlds) >= 4 and worlds == sorted(set(worlds)), (host, worlds)
 
 
@@ -191,27 +199,31 @@ def the_world_outlasts_hosts_and_is_seen_by_those_that_join(flight):
         flight.campaign.excuse(killed)
         spread.lab.kill_host(killed)
         others = [host for host in LAYOUT if host != killed]
-        spread.wait_for(lambda seen: runs(seen) and all(one["world"] == world == one["world_newest"] for one in seen.values()),
-                        "the same world", hosts=others)
+        spread.wait_for(lambda seen: runs(seen) and all(one["world"] == world == one["world_newest"]
+                                                        for one in seen.values()), "the same world", hosts=others)
         flight.campaign.lives[killed] += 1
         spread.start_host(killed)
-        states = spread.wait_for(lambda seen: runs(seen) and all(one.get("world") == world == one["world_newest"] for one in seen.values()),
+        states = spread.wait_for(lambda seen: runs(seen) and all(one.get("world") == world == one["world_newest"]
+                                                                 for one in seen.values()),
                                  "the same world on the host that has joined")
         flight.campaign.machine = flight.host_of("machine", states)
     spread.yars(joins, "world", "reset")
-    spread.wait_for(lambda seen: all(one["world"]["configured"] and one["world"]["edit"] == world["edit"] + 1 for one in seen.values()),
-                    "the configuration's world")
+    spread.wait_for(lambda seen: all(one["world"]["configured"] and one["world"]["edit"] == world["edit"] + 1
+                                     for one in seen.values()), "the configuration's world")
 
 
 def add_rain(spread, host, count):
     for number in range(count):
-        added = json.loads(spread.yars(host, "world", "rain", "add", str(37.4 + 0.02 * number), "-122.8", "--rate", "40", "--json"))
+        added = json.loads(spread.yars(host, "world", "rain", "add", str(37.4 + 0.02 * number), "-122.8",
+                                       "--rate", "40", "--json"))
         assert added["rain"], added
 
 
 def in_effect_everywhere(flight, rain):
-    return flight.spread.wait_for(lambda seen: all(len(one["world"]["rain"]) == rain and one["world"] == one["world_newest"] and
-                                                   one["world"] == seen["d"]["world"] for one in seen.values()), f"{rain} showers")
+    return flight.spread.wait_for(lambda seen: all(len(one["world"]["rain"]) == rain and
+                                                   one["world"] == one["world_newest"] and
+                                                   one["world"] == seen["d"]["world"] for one in seen.values()),
+                                  f"{rain} showers")
 
 
 def record(spread, host, name):
@@ -225,7 +237,8 @@ def record(spread, host, name):
 def the_clock_obeys_any_host(flight):
     spread = flight.spread
     flight.await_whole()
-    states = spread.wait_for(lambda seen: any(owns_clock(state, host) for host, state in seen.items()), "an owner of the clock")
+    states = spread.wait_for(lambda seen: any(owns_clock(state, host) for host, state in seen.items()),
+                             "an owner of the clock")
     owner = next(host for host in LAYOUT if owns_clock(states[host], host))
     first, second, third = (host for host in LAYOUT if host != owner)
     spread.yars(first, "sim", "freeze")
@@ -256,8 +269,8 @@ def owns_clock(state, host):
 
 
 def is_one_clock(states, spread):
-    """True if all hosts show one owner, epoch and rate, and sim times that differ by less than 50 ms at one moment, which their
-    monotonic clocks give."""
+    """True if all hosts show one owner, epoch and rate, and sim times that differ by less than 50 ms at one moment,
+    which their monotonic clocks give."""
     owners = {tuple(name for name in state["network"]["hosts"] if owns_clock(state, name)) for state in states.values()}
     kinds = {(one["epoch"], one["running"], one["rate"]) for one in states.values()}
     if len(owners) != 1 or len(next(iter(owners))) != 1 or len(kinds) != 1:
@@ -275,15 +288,18 @@ def a_host_without_roles_is_cut_off_and_nobody_notices(flight):
     alone = next(host for host in ("d", "a") if before[host]["machine"] != "here" and before[host]["model"] != "here")
     rest = [host for host in LAYOUT if host != alone]
     spread.lab.cut(alone)
-    spread.wait_for(lambda seen: owns_clock(seen[alone], alone) and set(present(seen[alone])) == {alone}, "a clock of its own", [alone])
+    spread.wait_for(lambda seen: owns_clock(seen[alone], alone) and set(present(seen[alone])) == {alone},
+                    "a clock of its own", [alone])
     spread.lab.heal(alone)
-    states = spread.wait_for(lambda seen: runs(seen) and all(set(present(one)) == set(LAYOUT) for one in seen.values()) and
+    states = spread.wait_for(lambda seen: runs(seen) and
+                             all(set(present(one)) == set(LAYOUT) for one in seen.values()) and
                              is_one_clock(seen, spread), "all hosts, and one clock")
     assert all(states[host]["epoch"] == before[host]["epoch"] for host in rest), (before, states)
     # Requests of a host are applied in their order: one for a new epoch would be applied before the freeze.
     for word, running in (("freeze", 0), ("run", 1)):
         spread.yars(alone, "sim", word)
-        states = spread.wait_for(lambda seen: all(one["running"] == running for one in seen.values()), f"{word} on all hosts")
+        states = spread.wait_for(lambda seen: all(one["running"] == running for one in seen.values()),
+                                 f"{word} on all hosts")
     assert all(one["epoch"] == before["a"]["epoch"] for one in states.values()), (before, states, spread.logs())
 
 
@@ -294,13 +310,15 @@ def both_parts_of_a_partition_go_on_and_the_larger_one_stays(flight):
     """The host that is cut off precedes by its name, so that only the size of its part decides."""
     spread, rest = flight.spread, ["a", "c", "d"]
     spread.lab.kill_host("c")  # then b has both roles
-    spread.wait_for(lambda seen: seen["b"]["machine"] == seen["b"]["model"] == "here", "b with both roles", hosts=["a", "b", "d"])
+    spread.wait_for(lambda seen: seen["b"]["machine"] == seen["b"]["model"] == "here", "b with both roles",
+                    hosts=["a", "b", "d"])
     spread.start_host("c")
     flight.campaign.lives["c"] += 1
     before = flight.await_whole()
     conflicts = {host: before[host]["network"]["conflicts"] for host in LAYOUT}
     spread.lab.cut("b")
-    alone = spread.wait_for(lambda seen: set(present(seen["b"])) == {"b"} and seen["b"]["machine"] == seen["b"]["model"] == "here",
+    alone = spread.wait_for(lambda seen: set(present(seen["b"])) == {"b"} and
+                            seen["b"]["machine"] == seen["b"]["model"] == "here",
                             "b alone with its roles", hosts=["b"])
     kept = spread.wait_for(lambda seen: runs(seen) and all(set(present(one)) == set(rest) for one in seen.values()),
                            "c with both roles", hosts=rest)
@@ -310,15 +328,16 @@ def both_parts_of_a_partition_go_on_and_the_larger_one_stays(flight):
         numbers += flight.press_on(rest, 1)
         flight.campaign.collect(rest)
     flight.await_applied(numbers, rest)
-    later = spread.wait_for(lambda seen: all(seen[host]["sweeps"] > (alone if host == "b" else kept)[host]["sweeps"] for host in LAYOUT),
-                            "sweeps in both parts")
+    later = spread.wait_for(lambda seen: all(seen[host]["sweeps"] > (alone if host == "b" else kept)[host]["sweeps"]
+                                             for host in LAYOUT), "sweeps in both parts")
     spread.lab.heal("b")
     highest = max(one["epoch"] for one in later.values())
     healed = spread.wait_for(lambda seen: runs(seen) and seen["c"]["machine"] == seen["c"]["model"] == "here" and
                              all(set(present(one)) == set(LAYOUT) and one["epoch"] > highest for one in seen.values()),
                              f"c with both roles in an epoch above {highest}, seen by all")
     # Others may hear of b only after it has given way.
-    spread.wait_for(lambda seen: any(seen[host]["network"]["conflicts"] > conflicts[host] for host in LAYOUT), f"conflicts after {healed}")
+    spread.wait_for(lambda seen: any(seen[host]["network"]["conflicts"] > conflicts[host] for host in LAYOUT),
+                    f"conflicts after {healed}")
     flight.campaign.collect(LAYOUT)
     flight.assert_once()
     restart_what_ended(flight, "b")
@@ -331,7 +350,8 @@ def separate(spread, part, whole):
             if (host in part) == (other in part):
                 continue
             address = spread.lab.address(other)
-            words = ["del", address] if whole else ["replace", address, "lladdr", "02:00:00:00:00:99", "nud", "permanent"]
+            words = (["del", address] if whole else
+                     ["replace", address, "lladdr", "02:00:00:00:00:99", "nud", "permanent"])
             spread.lab.run(host, "ip", ["neigh", *words, "dev", "eth0"])
 
 
@@ -342,7 +362,8 @@ def of_two_equal_parts_the_first_name_stays(flight):
     separate(spread, "ab", whole=False)
     for part, holder in zip(parts, "bc"):
         spread.wait_for(lambda seen: all(set(present(one)) == set(part) for one in seen.values()) and runs(seen) and
-                        seen[holder]["machine"] == seen[holder]["model"] == "here", f"{holder} with both roles", hosts=part)
+                        seen[holder]["machine"] == seen[holder]["model"] == "here",
+                        f"{holder} with both roles", hosts=part)
     time.sleep(1.5)  # the size of a part is the number of hosts that it heard 1 s ago
     apart = spread.states()
     separate(spread, "ab", whole=True)
@@ -365,7 +386,8 @@ def restart_what_ended(flight, host):
     running = {process.name for process in flight.spread.lab.hosts[host].processes if process.poll() is None}
     for role, arguments in LAYOUT[host]:
         if role not in running:
-            flight.spread.lab.start(host, str(flight.spread.programs / role), ["--session", flight.spread.session, *arguments])
+            flight.spread.lab.start(host, str(flight.spread.programs / role),
+                                    ["--session", flight.spread.session, *arguments])
 
 
 def a_standby_goes_on_where_the_killed_host_ended(flight):
@@ -381,7 +403,8 @@ def a_standby_goes_on_where_the_killed_host_ended(flight):
         spread.lab.kill_host(holder)
         others = [host for host in LAYOUT if host != holder]
         states = spread.wait_for(lambda seen: runs(seen) and all(one["model_sweeps"] > status["model_sweeps"] + 50
-                                                                 for one in seen.values()), "a standby that goes on", hosts=others)
+                                                                 for one in seen.values()),
+                                 "a standby that goes on", hosts=others)
         after = spread.watch("d")
         assert {name: after[name] for name in PILOTS} == {name: pilot[name] for name in PILOTS}, (pilot, after)
         assert after["events_applied"] == pilot["events_applied"], (pilot, after)
@@ -396,15 +419,17 @@ def a_standby_goes_on_where_the_killed_host_ended(flight):
 def nothing_is_torn_or_out_of_range(flight):
     for host in LAYOUT:
         # An observer that has just started has read nothing yet.
-        verdict = lab.wait_until(lambda: (said := flight.spread.ask(host, "verdict"))["records"] and said, "records", WITHIN_S)
+        verdict = lab.wait_until(lambda: (said := flight.spread.ask(host, "verdict"))["records"] and said, "records",
+                                 WITHIN_S)
         assert verdict["torn"] == verdict["out_of_range"] == 0, (host, verdict)
 
 
 TESTS = (a_map_that_is_commanded_appears_on_all_hosts, ships_of_one_host_are_latched_by_the_model_of_another,
          a_bad_line_loses_no_sweep_and_no_event, an_instructor_of_any_host_changes_the_world,
-         the_world_outlasts_hosts_and_is_seen_by_those_that_join, the_clock_obeys_any_host, nothing_is_torn_or_out_of_range,
-         a_host_without_roles_is_cut_off_and_nobody_notices, both_parts_of_a_partition_go_on_and_the_larger_one_stays,
-         of_two_equal_parts_the_first_name_stays, a_standby_goes_on_where_the_killed_host_ended, nothing_is_torn_or_out_of_range)
+         the_world_outlasts_hosts_and_is_seen_by_those_that_join, the_clock_obeys_any_host,
+         nothing_is_torn_or_out_of_range, a_host_without_roles_is_cut_off_and_nobody_notices,
+         both_parts_of_a_partition_go_on_and_the_larger_one_stays, of_two_equal_parts_the_first_name_stays,
+         a_standby_goes_on_where_the_killed_host_ended, nothing_is_torn_or_out_of_range)
 
 
 def main():

@@ -22,11 +22,13 @@ WITHIN_S = 60.0
 # Datagrams as of a faulty program: bytes of any kind, some behind the head of a DDS message.
 GARBAGE = """
 import random, socket, sys, time
-out, seed, until = socket.socket(socket.AF_INET, socket.SOCK_DGRAM), random.Random(1), time.monotonic() + float(sys.argv[2])
+out, seed, until = (socket.socket(socket.AF_INET, socket.SOCK_DGRAM), random.Random(1),
+                    time.monotonic() + float(sys.argv[2]))
 while time.monotonic() < until:
     for _ in range(50):
         text = seed.randbytes(seed.randint(0, 1400))
-        out.sendto(b"RTPS\\x02\\x01\\x01\\x10" + text if seed.random() < 0.6 else text, (sys.argv[1], seed.choice((7410, 7411))))
+        out.sendto(b"RTPS\\x02\\x01\\x01\\x10" + text if seed.random() < 0.6 else text,
+                   (sys.argv[1], seed.choice((7410, 7411))))
     time.sleep(0.01)
 """
 
@@ -41,7 +43,8 @@ def make_network(folder, *hosts):
 
 def said_at_start(programs, file, session):
     """Code and lines of a gateway that is expected to end at once."""
-    done = subprocess.run([programs / "gateway", "--session", session, "--network", file], capture_output=True, text=True, timeout=30)
+    done = subprocess.run([programs / "gateway", "--session", session, "--network", file], capture_output=True,
+                          text=True, timeout=30)
     return done.returncode, done.stderr.splitlines()
 
 
@@ -57,7 +60,8 @@ def expired(folder):
     (scratch / "index").write_text("")
     (scratch / "serial").write_text("01\n")
     (scratch / "settings").write_text(f"[ca]\ndefault_ca=x\n[x]\ndatabase={scratch}/index\nserial={scratch}/serial\n"
-                                      f"new_certs_dir={scratch}\npolicy=p\ndefault_md=sha256\n[p]\ncommonName=supplied\n")
+                                      f"new_certs_dir={scratch}\npolicy=p\ndefault_md=sha256\n"
+                                      "[p]\ncommonName=supplied\n")
     openssl("req", "-new", "-sha256", "-key", folder / "key.pem", "-subj", "/CN=a", "-out", scratch / "request")
     openssl("ca", "-batch", "-config", scratch / "settings", "-cert", authority / "identity_ca.pem", "-keyfile",
             authority / "identity_ca.key", "-in", scratch / "request", "-startdate", "20200101000000Z", "-enddate",
@@ -80,25 +84,34 @@ def faults_of_an_identity_are_named(programs, folder):
     pipe, subfolder = replaced_by(os.mkfifo), replaced_by(os.mkdir)
     cases = [
         ("key", of_b("key.pem"), "expected the key of certificate.pem (CN=a) in ", "found another key"),
-        ("name", of_b("certificate.pem"), "expected the certificate of host a, CN=a, in ", "found CN=b; give the form Network the `name`"),
+        ("name", of_b("certificate.pem"), "expected the certificate of host a, CN=a, in ",
+         "found CN=b; give the form Network the `name`"),
         ("permissions", of_b("permissions.p7s"), "expected permissions of CN=a", "found those of CN=b"),
-        ("authority", of_other("identity_ca.pem"), "expected a certificate that identity_ca.pem beside it has signed", "certificate.pem"),
-        ("signer", of_other("governance.p7s"), "expected a document that permissions_ca.pem beside it has signed", "governance.p7s"),
-        ("date", expired, "expected a certificate that is valid now", "found one until Jan  1 00:00:00 2021 GMT; check this computer's date"),
+        ("authority", of_other("identity_ca.pem"), "expected a certificate that identity_ca.pem beside it has signed",
+         "certificate.pem"),
+        ("signer", of_other("governance.p7s"), "expected a document that permissions_ca.pem beside it has signed",
+         "governance.p7s"),
+        ("date", expired, "expected a certificate that is valid now",
+         "found one until Jan  1 00:00:00 2021 GMT; check this computer's date"),
         ("pipe", lambda path: pipe(path, "certificate.pem"), "expected a regular file", "found a pipe"),
         ("place", lambda path: subfolder(path, "key.pem"), "expected a regular file", "found a folder"),
-        ("device", lambda path: replaced_by(lambda at: at.symlink_to("/dev/zero"))(path, "governance.p7s"), "expected a regular file", "governance.p7s"),
-        ("missing", lambda path: (path / "permissions_ca.pem").unlink(), "expected the file", "found none; scripts/network_identities"),
+        ("device", lambda path: replaced_by(lambda at: at.symlink_to("/dev/zero"))(path, "governance.p7s"),
+         "expected a regular file", "governance.p7s"),
+        ("missing", lambda path: (path / "permissions_ca.pem").unlink(), "expected the file",
+         "found none; scripts/network_identities"),
         ("empty", lambda path: (path / "permissions.p7s").write_text(""), "expected 1 to 1048576 bytes", "found none"),
-        ("changed", lambda path: (path / "permissions.p7s").write_bytes((path / "permissions.p7s").read_bytes().replace(b"yars/*", b"yars/?", 1)),
+        ("changed", lambda path: (path / "permissions.p7s").write_bytes(
+            (path / "permissions.p7s").read_bytes().replace(b"yars/*", b"yars/?", 1)),
          "expected a document that permissions_ca.pem beside it has signed", "signature failure"),
-        ("text", lambda path: (path / "key.pem").write_text("garbage\n"), "expected a private key without password", "key.pem"),
+        ("text", lambda path: (path / "key.pem").write_text("garbage\n"), "expected a private key without password",
+         "key.pem"),
     ]
     for name, change, *parts in cases:
         shutil.copytree(folder / "net/a", folder / name)
         change(folder / name)
         (folder / f"{name}.guf").write_text(f'( Network :name "a" :security "{name}" )\n')
-        for code, lines in (said_at_start(programs, folder / f"{name}.guf", "setup_faults"), said_by_check(programs, folder / f"{name}.guf")):
+        for code, lines in (said_at_start(programs, folder / f"{name}.guf", "setup_faults"),
+                            said_by_check(programs, folder / f"{name}.guf")):
             assert code == 1 and len(lines) == 1 and "Network: security: " in lines[0], (name, code, lines)
             assert all(part in lines[0] for part in parts), (name, lines)
     (folder / "none.guf").write_text('( Network :security "nowhere" )\n')
@@ -114,7 +127,8 @@ def an_identity_of_another_host_than_this_is_warned_of(programs, folder):
     assert code == 1 and "found CN=not-this-host" in lines[-1], lines
     code, lines = said_by_check(programs, folder / "host.guf")
     assert code == 0 and "the gateway would refuse this here: Network: security: " in lines[0], lines
-    assert "found CN=not-this-host; give the form Network the `name`" in lines[0] and "valid, 1 warning" in lines[1], lines
+    assert ("found CN=not-this-host; give the form Network the `name`" in lines[0] and
+            "valid, 1 warning" in lines[1]), lines
 
 
 def a_key_that_others_can_read_is_warned_of(programs, folder):
@@ -144,7 +158,8 @@ def faults_of_the_form_are_named(programs, folder):
 def too_few_places_name_the_slot(programs, folder):
     file = folder / "form.guf"
     file.write_text("( Network :domain 229 :participants 1 )\n")
-    first = subprocess.Popen([programs / "gateway", "--session", "setup_faults_1", "--network", file], stderr=subprocess.PIPE, text=True)
+    first = subprocess.Popen([programs / "gateway", "--session", "setup_faults_1", "--network", file],
+                             stderr=subprocess.PIPE, text=True)
     try:
         assert "joins session" in first.stderr.readline()
         code, lines = said_at_start(programs, file, "setup_faults_2")
@@ -194,7 +209,8 @@ def another_session_is_named(programs, _):
     with spread_set.SpreadSet(programs, {"a": (), "b": ()}) as spread:
         spread.start_gateway("a")
         spread.lab.start("b", str(programs / "gateway"), ["--session", "other", "--network", spread.network_file("b")])
-        spread.gateways["a"].wait_for(f"is of session other, this one of session {spread.session}: nothing is exchanged", WITHIN_S)
+        spread.gateways["a"].wait_for(f"is of session other, this one of session {spread.session}: "
+                                      "nothing is exchanged", WITHIN_S)
 
 
 def garbage_gives_few_lines(programs, _):
@@ -214,21 +230,25 @@ def garbage_gives_few_lines(programs, _):
 
 
 def status_shows_who_runs_where(programs, _):
-    with spread_set.SpreadSet(programs, {"a": [("flight-model", FLIGHT)], "b": (), "c": [("radar-model", [])]}) as spread:
+    hosts = {"a": [("flight-model", FLIGHT)], "b": (), "c": [("radar-model", [])]}
+    with spread_set.SpreadSet(programs, hosts) as spread:
         spread.start_gateways()
         spread.start_roles("a")
         spread.start_roles("c")
         shown = lambda host, name: next((line for line in spread.yars(host, "status", code=None).splitlines()
                                          if line.startswith(f"  {name} ")), "")
-        lab.wait_until(lambda: "flight-model" in shown("b", "a"), "flight-model of a in `yars status` on b", WITHIN_S, every_s=0.3)
-        lab.wait_until(lambda: "radar-model" in shown("b", "c"), "radar-model of c in `yars status` on b", WITHIN_S, every_s=0.3)
+        lab.wait_until(lambda: "flight-model" in shown("b", "a"), "flight-model of a in `yars status` on b", WITHIN_S,
+                       every_s=0.3)
+        lab.wait_until(lambda: "radar-model" in shown("b", "c"), "radar-model of c in `yars status` on b", WITHIN_S,
+                       every_s=0.3)
         spread.gateways["a"].signal(signal.SIGINT)
         spread.gateways["a"].wait(WITHIN_S)
         spread.gateways["b"].wait_for("info: host a has left", WITHIN_S)
         spread.lab.kill_host("c")
         spread.gateways["b"].wait_for("warning: host c is no longer heard", WITHIN_S)
         assert "host a is no longer heard" not in spread.gateways["b"].text(), spread.logs()
-        lab.wait_until(lambda: "left" in shown("b", "a") and "silent" in shown("b", "c"), "hosts that are gone", WITHIN_S, every_s=0.3)
+        lab.wait_until(lambda: "left" in shown("b", "a") and "silent" in shown("b", "c"), "hosts that are gone",
+                       WITHIN_S, every_s=0.3)
         assert "model" not in shown("b", "a") and "model" not in shown("b", "c"), spread.yars("b", "status", code=None)
 
 

@@ -52,7 +52,8 @@ class Observer:
 
 
 class SpreadSet:
-    """hosts: roles and arguments by host. options: slots of the form Network for every host; {host} is the host's name."""
+    """hosts: roles and arguments by host. options: slots of the form Network for every host; {host} is the host's
+    name."""
 
     def __init__(self, programs, hosts=None, options="", seed=1, keep=False, session=SESSION):
         self.programs = pathlib.Path(programs).resolve()
@@ -79,7 +80,8 @@ class SpreadSet:
     def start_gateway(self, host, more=(), name=None, options=None):
         """name, options: of this host alone."""
         self.gateways[host] = self.lab.start(host, str(self.programs / "gateway"),
-                                             ["--session", self.session, "--network", self.network_file(host, name, options), *more])
+                                             ["--session", self.session,
+                                              "--network", self.network_file(host, name, options), *more])
         return self.gateways[host]
 
     def start_roles(self, host):
@@ -110,11 +112,12 @@ class SpreadSet:
             self.start_observer(host)
 
     def yars(self, host, *words, code=0, within_s=60.0):
-        return self.lab.run(host, str(self.programs / "yars"), [*words, "--session", self.session], code=code, within_s=within_s)
+        return self.lab.run(host, str(self.programs / "yars"), [*words, "--session", self.session], code=code,
+                            within_s=within_s)
 
     def inject(self, host, event):
-        """Until the event is applied. `yars inject` waits 2 s for it; on a busy machine, or before a state machine runs, that
-        may be too short, and it is sent again."""
+        """Until the event is applied. `yars inject` waits 2 s for it; on a busy machine, or before a state machine
+        runs, that may be too short, and it is sent again."""
         deadline = time.monotonic() + JOINS_WITHIN_S
         while True:
             said = self.yars(host, "inject", event, code=None)
@@ -147,7 +150,8 @@ class SpreadSet:
             if all(states.values()) and condition(states):
                 return states
             if time.monotonic() > deadline:
-                raise AssertionError(f"expected {what} within {within_s} s, found {json.dumps(states)}; logs: {self.logs()}")
+                raise AssertionError(f"expected {what} within {within_s} s, found {json.dumps(states)}; "
+                                     f"logs: {self.logs()}")
             time.sleep(0.02)
 
     def logs(self):
@@ -176,7 +180,8 @@ def run_tests(tests, *arguments):
 def runs(states):
     """True if every host shows one machine and one model of one epoch, with a fresh ownship."""
     values = list(states.values())
-    return (sum(one["machine"] == "here" for one in values) == 1 and sum(one["model"] == "here" for one in values) == 1 and
+    return (sum(one["machine"] == "here" for one in values) == 1 and
+            sum(one["model"] == "here" for one in values) == 1 and
             all(one["machine"] != "none" and one["model"] != "none" for one in values) and
             len({one["epoch"] for one in values}) == 1 and
             all(one.get("stale") is False and one.get("model_epoch") == one["epoch"] and abs(one["model_age_ms"]) < 500

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""scripts/network_identities: what it makes, what it refuses, and that DDS programs with these identities meet and others do not.
+"""scripts/network_identities: what it makes, what it refuses, and that DDS programs with these identities meet and
+others do not.
 
-usage: identities_test.py       ends with 77 and a word where openssl is missing; without idlc, gcc or Cyclone DDS its last part is left out
+usage: identities_test.py       ends with 77 and a word where openssl is missing; without idlc, gcc or Cyclone DDS its
+                                last part is left out
 The programs talk over loopback alone, in a domain of their own.
 """
 import os
@@ -19,7 +21,8 @@ SECONDS = 20  # at most: a reader that has received something ends
 REFUSED_SECONDS = 2
 IDL = "module yars { @final struct Word { long number; }; };\n"
 CONFIGURATION = """<CycloneDDS><Domain Id="{domain}">
- <General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces><AllowMulticast>false</AllowMulticast></General>
+ <General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>
+  <AllowMulticast>false</AllowMulticast></General>
  <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>7</MaxAutoParticipantIndex>
   <Peers><Peer Address="127.0.0.1"/></Peers><SPDPInterval>200ms</SPDPInterval></Discovery>
  <SharedMemory><Enable>false</Enable></SharedMemory>
@@ -27,13 +30,16 @@ CONFIGURATION = """<CycloneDDS><Domain Id="{domain}">
 </Domain></CycloneDDS>
 """
 SECURITY = """<Security>
-  <Authentication><Library initFunction="init_authentication" finalizeFunction="finalize_authentication" path="dds_security_auth"/>
+  <Authentication>
+   <Library initFunction="init_authentication" finalizeFunction="finalize_authentication" path="dds_security_auth"/>
    <IdentityCA>file:{0}/identity_ca.pem</IdentityCA><IdentityCertificate>file:{0}/certificate.pem</IdentityCertificate>
    <PrivateKey>file:{0}/key.pem</PrivateKey></Authentication>
-  <AccessControl><Library initFunction="init_access_control" finalizeFunction="finalize_access_control" path="dds_security_ac"/>
+  <AccessControl>
+   <Library initFunction="init_access_control" finalizeFunction="finalize_access_control" path="dds_security_ac"/>
    <PermissionsCA>file:{0}/permissions_ca.pem</PermissionsCA><Governance>file:{0}/governance.p7s</Governance>
    <Permissions>file:{0}/permissions.p7s</Permissions></AccessControl>
-  <Cryptographic><Library initFunction="init_crypto" finalizeFunction="finalize_crypto" path="dds_security_crypto"/></Cryptographic>
+  <Cryptographic>
+   <Library initFunction="init_crypto" finalizeFunction="finalize_crypto" path="dds_security_crypto"/></Cryptographic>
  </Security>"""
 
 
@@ -60,7 +66,8 @@ def each_host_has_what_it_needs(folder):
                       ["smime", "-verify", "-CAfile", own / "permissions_ca.pem", "-in", own / "permissions.p7s"]):
             done = subprocess.run(["openssl", *words], capture_output=True, text=True)
             assert done.returncode == 0, done
-        assert f"<subject_name>CN={host}</subject_name>" in done.stdout and "<topic>yars/*</topic>" in done.stdout, done.stdout
+        assert (f"<subject_name>CN={host}</subject_name>" in done.stdout and
+                "<topic>yars/*</topic>" in done.stdout), done.stdout
     keys = {path.read_bytes() for path in (folder / "net").rglob("*key*")}
     assert len(keys) == 4, "two hosts share a key"
 
@@ -72,7 +79,8 @@ def hosts_are_added_with_the_same_authority(folder):
     assert all(path.read_bytes() == text for path, text in before.items())
     assert (folder / "net/c/identity_ca.pem").read_bytes() == (folder / "net/a/identity_ca.pem").read_bytes()
     permissions = (folder / "net/c/permissions.p7s").read_text()
-    assert "<topic>yars/input_events</topic>" in permissions and permissions.count("<topic>yars/*</topic>") == 1, permissions
+    assert ("<topic>yars/input_events</topic>" in permissions and
+            permissions.count("<topic>yars/*</topic>") == 1), permissions
 
 
 def nothing_is_written_over_and_faults_are_named(folder):
@@ -81,12 +89,17 @@ def nothing_is_written_over_and_faults_are_named(folder):
     make(net, "a")
     before = sorted(net.rglob("*"))
     for words, code, part in (([net, "a"], 1, "expected no a, ca in "), ([net, "b"], 1, "expected no ca in "),
-                              ([net, "a", "--add"], 1, "expected no a in "), ([folder / "other", "x", "--add"], 1, "expected identity_ca.key"),
-                              ([net, "ca", "--add"], 1, "and not ca"), ([net, "../x", "--add"], 1, "HOST: expected 1 to 31 letters"),
-                              ([net, "x\x1b", "--add"], 1, "found 'x\\x1b'"), ([net, "x", "x", "--add"], 1, "found one twice"),
+                              ([net, "a", "--add"], 1, "expected no a in "),
+                              ([folder / "other", "x", "--add"], 1, "expected identity_ca.key"),
+                              ([net, "ca", "--add"], 1, "and not ca"),
+                              ([net, "../x", "--add"], 1, "HOST: expected 1 to 31 letters"),
+                              ([net, "x\x1b", "--add"], 1, "found 'x\\x1b'"),
+                              ([net, "x", "x", "--add"], 1, "found one twice"),
                               ([net, "x", "--add", "--reads", "a"], 1, "--reads: expected one of x, found 'a'"),
-                              ([folder / "file", "x"], 1, "expected a folder, found the file"), ([net], 2, "expected DIR and one HOST"),
-                              ([net, "x", "--days", "0"], 2, "from 1 to 36500, found '0'"), ([net, "x", "--dais", "1"], 2, "--dais")):
+                              ([folder / "file", "x"], 1, "expected a folder, found the file"),
+                              ([net], 2, "expected DIR and one HOST"),
+                              ([net, "x", "--days", "0"], 2, "from 1 to 36500, found '0'"),
+                              ([net, "x", "--dais", "1"], 2, "--dais")):
         done = run(*words)
         lines = done.stderr.splitlines()
         assert done.returncode == code and len(lines) == 1 and part in lines[0] and done.stdout == "", (words, done)
@@ -105,11 +118,12 @@ class Network:
     def talk(self, identity, action, topic, partition="s", seconds=SECONDS):
         self.count += 1
         file = self.folder / f"{self.count}.xml"
-        file.write_text(CONFIGURATION.format(domain=self.domain, security=SECURITY.format(identity) if identity else ""))
+        file.write_text(CONFIGURATION.format(domain=self.domain,
+                                             security=SECURITY.format(identity) if identity else ""))
         environment = {**os.environ, "CYCLONEDDS_URI": f"file://{file}"}
         with (self.folder / f"{self.count}.log").open("w") as log:
-            return subprocess.Popen([self.program, action, topic, partition, str(seconds)], stdout=subprocess.PIPE, stderr=log,
-                                    text=True, env=environment)
+            return subprocess.Popen([self.program, action, topic, partition, str(seconds)], stdout=subprocess.PIPE,
+                                    stderr=log, text=True, env=environment)
 
     def received(self, writer, reader, topic="yars/radar_state", seconds=SECONDS):
         """What a reader with an identity got of a writer with one."""
@@ -136,8 +150,8 @@ def built(folder):
     (folder / "word.idl").write_text(IDL)
     subprocess.run(["idlc", "word.idl"], cwd=folder, check=True, timeout=60)
     source = pathlib.Path(__file__).resolve().parent / "talker.c"
-    subprocess.run(["gcc", "-std=gnu11", "-Wall", "-Wextra", "-Werror", "-I.", "word.c", source, "-o", "talker", *flags.stdout.split()],
-                   cwd=folder, check=True, timeout=120)
+    subprocess.run(["gcc", "-std=gnu11", "-Wall", "-Wextra", "-Werror", "-I.", "word.c", source, "-o", "talker",
+                    *flags.stdout.split()], cwd=folder, check=True, timeout=120)
     return folder / "talker", ""
 
 
@@ -168,8 +182,8 @@ def main():
     if shutil.which("openssl") is None:
         print("skipped: expected openssl, found none")
         return 77
-    for test in (each_host_has_what_it_needs, hosts_are_added_with_the_same_authority, nothing_is_written_over_and_faults_are_named,
-                 identities_meet_and_strangers_do_not):
+    for test in (each_host_has_what_it_needs, hosts_are_added_with_the_same_authority,
+                 nothing_is_written_over_and_faults_are_named, identities_meet_and_strangers_do_not):
         with tempfile.TemporaryDirectory() as folder:
             test(pathlib.Path(folder))
         print(f"{test.__name__}: ok", flush=True)

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""scripts/start --network on four hosts over a bad line, as docs/network.md sets them up, with identities. YARS_TEST_FULL:
-also without, and after a silence.
+"""scripts/start --network on four hosts over a bad line, as docs/network.md sets them up, with identities.
+YARS_TEST_FULL: also without, and after a silence.
 
-usage: four_hosts_test.py BIN       BIN: folder of the programs; ends with 77 and a word where there is no lab or no gateway
+usage: four_hosts_test.py BIN       BIN: folder of the programs; ends with 77 and a word where there is no lab or no
+                                    gateway
 """
 import json
 import os
@@ -61,7 +62,8 @@ class Set:
         self.begun[host] = self.hosts.start(host, str(START), words)
 
     def watch(self, host):
-        text = self.hosts.run(host, str(self.programs / "yars"), ["--session", SESSION, "watch", "--json", "--once"], code=None)
+        text = self.hosts.run(host, str(self.programs / "yars"), ["--session", SESSION, "watch", "--json", "--once"],
+                              code=None)
         try:
             return json.loads(text)
         except json.JSONDecodeError:  # nothing runs there yet
@@ -85,7 +87,8 @@ def fly(hosts, programs, folder, identities):
     one = Set(hosts, programs, folder, identities)
     for host, roles in ROLES.items():
         one.start(host, roles)
-    one.await_on(ROLES, lambda seen: seen.get("power") == "OPR" and seen.get("sweeps", 0) > 100, "a radar that sweeps, on all hosts")
+    one.await_on(ROLES, lambda seen: seen.get("power") == "OPR" and seen.get("sweeps", 0) > 100,
+                 "a radar that sweeps, on all hosts")
     applied = one.watch("b")["events_applied"]
     hosts.run("d", str(one.programs / "yars"), ["--session", SESSION, "inject", "elevation -5"])
     one.await_on(["b", "d"], lambda seen: seen.get("events_applied", 0) > applied, "the event of host d applied")
@@ -109,7 +112,8 @@ def joins_over_a_line_that_was_bad(hosts, programs, folder):
         one.start(host, roles)
     time.sleep(BAD_LINE_S)
     hosts.set_line(loss=1, delay=5)
-    one.await_on(ROLES, lambda seen: seen.get("power") == "OPR" and seen.get("sweeps", 0) > 100, "a radar that sweeps, on all hosts")
+    one.await_on(ROLES, lambda seen: seen.get("power") == "OPR" and seen.get("sweeps", 0) > 100,
+                 "a radar that sweeps, on all hosts")
     one.end()
 
 
@@ -118,14 +122,16 @@ def joins_again_after_a_silence(hosts, programs, folder):
     one = Set(hosts, programs, folder, True)
     for host, roles in ROLES.items():
         one.start(host, roles)
-    one.await_on(ROLES, lambda seen: seen.get("power") == "OPR" and seen.get("sweeps", 0) > 100, "a radar that sweeps, on all hosts")
+    one.await_on(ROLES, lambda seen: seen.get("power") == "OPR" and seen.get("sweeps", 0) > 100,
+                 "a radar that sweeps, on all hosts")
     hosts.mute("c")
-    lab.wait_until(lambda: any("was lost, as on a bad line: joins again" in process.text() for process in one.begun.values()),
-                   "a gateway that joins again", WITHIN_S)
+    lab.wait_until(lambda: any("was lost, as on a bad line: joins again" in process.text()
+                               for process in one.begun.values()), "a gateway that joins again", WITHIN_S)
     hosts.heal("c")
     before = {host: one.watch(host).get("sweeps", 0) for host in ROLES}
     for host in ROLES:
-        one.await_on([host], lambda seen, host=host: seen.get("sweeps", 0) > before[host] + 50, "sweeps after the silence")
+        one.await_on([host], lambda seen, host=host: seen.get("sweeps", 0) > before[host] + 50,
+                     "sweeps after the silence")
     one.end()
 
 

@@ -6,9 +6,9 @@
         print(four.run("d", "yars", ["--session", "s", "status"]))
         four.kill_host("c")
 
-Each host has namespaces of its own for network, processes, mounts, host name and clocks: an eth0 at the wire (wire.cpp), lo, an
-empty /dev/shm, a home, and a monotonic clock that stands elsewhere. Nothing of it has a name outside, so labs do not
-meet, and it ends with the process that made it, however that ends. See README.md.
+Each host has namespaces of its own for network, processes, mounts, host name and clocks: an eth0 at the wire
+(wire.cpp), lo, an empty /dev/shm, a home, and a monotonic clock that stands elsewhere. Nothing of it has a name
+outside, so labs do not meet, and it ends with the process that made it, however that ends. See README.md.
 """
 import atexit
 import contextlib
@@ -54,8 +54,9 @@ def can_run(wire=WIRE):
             return f"expected the command {tool}, found none"
     if not os.access(wire, os.X_OK):
         return f"expected the program wire, found none at {wire}"
-    made = subprocess.run(["unshare", "--net", "--mount", "--pid", "--uts", "--fork", "--mount-proc", "--time", "--monotonic", "1",
-                           "ip", "tuntap", "add", "dev", "eth0", "mode", "tap"], capture_output=True, text=True)
+    made = subprocess.run(["unshare", "--net", "--mount", "--pid", "--uts", "--fork", "--mount-proc", "--time",
+                           "--monotonic", "1", "ip", "tuntap", "add", "dev", "eth0", "mode", "tap"],
+                          capture_output=True, text=True)
     return "" if made.returncode == 0 else f"expected namespaces and a TAP device, found {made.stderr.strip()}"
 
 
@@ -68,8 +69,8 @@ def child_of(pid):
 
 
 def wait_until(condition, what, within_s=WITHIN_S, every_s=0.05):
-    """The first value of condition() that is true; an error when none was. `every_s`: longest pause between two calls, longer for a
-    condition that starts a program."""
+    """The first value of condition() that is true; an error when none was. `every_s`: longest pause between two calls,
+    longer for a condition that starts a program."""
     deadline, pause_s = time.monotonic() + within_s, 0.002
     while not (value := condition()):
         if time.monotonic() > deadline:
@@ -88,7 +89,8 @@ class Process:
     @property
     def pid(self):
         """As the lab numbers processes, not the host."""
-        return wait_until(lambda: child_of(self.entered.pid) or self.entered.poll() is not None and -1, f"a process of {self.name}")
+        return wait_until(lambda: child_of(self.entered.pid) or self.entered.poll() is not None and -1,
+                          f"a process of {self.name}")
 
     def signal(self, number):
         with contextlib.suppress(ProcessLookupError):
@@ -111,7 +113,8 @@ class Process:
         deadline = time.monotonic() + within_s
         while (code := self.poll()) is None:
             if time.monotonic() > deadline:
-                raise LabError(f"{self.name} on {self.host.name}: expected its end within {within_s:g} s; it said: {self.text()[-2000:]}")
+                raise LabError(f"{self.name} on {self.host.name}: expected its end within {within_s:g} s; it said: "
+                               f"{self.text()[-2000:]}")
             time.sleep(0.005)
         return code
 
@@ -178,27 +181,30 @@ class Host:
     def environment(self, more):
         home = self.folder / "home"
         kept = {name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "ASAN_OPTIONS") if name in os.environ}
-        return {**kept, "HOME": str(home), "XDG_CACHE_HOME": str(home / ".cache"), "XDG_STATE_HOME": str(home / ".local/state"),
-                "XDG_CONFIG_HOME": str(home / ".config"), "XDG_RUNTIME_DIR": str(self.folder / "run"), "YARS_USER_CONFIG": "",
-                **(more or {})}
+        return {**kept, "HOME": str(home), "XDG_CACHE_HOME": str(home / ".cache"),
+                "XDG_STATE_HOME": str(home / ".local/state"), "XDG_CONFIG_HOME": str(home / ".config"),
+                "XDG_RUNTIME_DIR": str(self.folder / "run"), "YARS_USER_CONFIG": "", **(more or {})}
 
 
 class Lab:
-    """hosts: names. network: the first three numbers of their addresses. offsets_s: of their monotonic clocks. The hosts, clocks and
-    seeds of two labs do not depend on each other. keep: the folder with logs and homes stays when the lab ends."""
+    """hosts: names. network: the first three numbers of their addresses. offsets_s: of their monotonic clocks. The
+    hosts, clocks and seeds of two labs do not depend on each other. keep: the folder with logs and homes stays when the
+    lab ends."""
 
-    def __init__(self, hosts=("a", "b", "c", "d"), wire=WIRE, network="192.168.10", offsets_s=OFFSETS_S, seed=1, keep=False):
+    def __init__(self, hosts=("a", "b", "c", "d"), wire=WIRE, network="192.168.10", offsets_s=OFFSETS_S, seed=1,
+                 keep=False):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="yars_lab_"))
         self.keep, self.network = keep, network
         self.wire = None
         self.hosts = {}
         atexit.register(self.close)
         try:
-            self.wire = subprocess.Popen([wire, str(len(hosts)), str(seed)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                         text=True, bufsize=1, start_new_session=True)
+            self.wire = subprocess.Popen([wire, str(len(hosts)), str(seed)], stdin=subprocess.PIPE,
+                                         stdout=subprocess.PIPE, text=True, bufsize=1, start_new_session=True)
             for port, name in enumerate(hosts, 1):
                 self.hosts[name] = Host(name, port, f"{network}.{port}", self.folder / name)
-                self._switch_on(self.hosts[name], offsets_s[port - 1] if port <= len(offsets_s) else offsets_s[-1] * port)
+                self._switch_on(self.hosts[name],
+                                offsets_s[port - 1] if port <= len(offsets_s) else offsets_s[-1] * port)
         except BaseException:
             self.close()
             raise
@@ -243,7 +249,8 @@ class Lab:
         process = self.start(host, program, args, env, folder)
         found = process.wait(within_s)
         if code is not None and found != code:
-            raise LabError(f"{program} on {host}: expected code {code}, found {found}; it said: {process.text()[-2000:]}")
+            raise LabError(f"{program} on {host}: expected code {code}, found {found}; it said: "
+                           f"{process.text()[-2000:]}")
         return process.text()
 
     def pids(self, host):
@@ -291,7 +298,8 @@ class Lab:
         self._order(f"heal {self.hosts[host].port}")
 
     def set_line(self, loss=0.0, delay=0.0, jitter=0.0, duplicate=0.0, reorder=0.0, bandwidth=0.0):
-        """Shares in percent, times in milliseconds, one way; bandwidth in kbit/s of each host's reception, 0 for no limit."""
+        """Shares in percent, times in milliseconds, one way; bandwidth in kbit/s of each host's reception, 0 for no
+        limit."""
         for order in (f"loss {loss}", f"delay {delay} {jitter}", f"duplicate {duplicate}", f"reorder {reorder}",
                       f"bandwidth {bandwidth}"):
             self._order(order)
@@ -318,7 +326,8 @@ class Lab:
         self._order(f"plug {host.port} /proc/{host.first}/ns/net")
         orders = (f"link set eth0 address 02:00:00:00:00:{host.port:02x}\naddress add {host.address}/24 dev eth0\n"
                   "link set eth0 up\n")
-        done = subprocess.run(host.inside("ip", "-batch", "-", spaces=["--net"]), input=orders, capture_output=True, text=True)
+        done = subprocess.run(host.inside("ip", "-batch", "-", spaces=["--net"]), input=orders, capture_output=True,
+                              text=True)
         if done.returncode != 0:
             raise LabError(f"host {host.name}: expected an address, found {done.stderr.strip()}")
 

@@ -31,7 +31,8 @@ with lab.Lab(["a", "b"], wire=sys.argv[2]) as two:
 
 def ping(hosts, source, target, count=5, more=()):
     """Numbers of what was sent and received, and the least round trip [ms]; no answer at all is 0 received."""
-    text = hosts.run(source, "ping", ["-n", "-q", "-c", count, "-i", "0.01", "-W", "1", *more, hosts.address(target)], code=None)
+    text = hosts.run(source, "ping", ["-n", "-q", "-c", count, "-i", "0.01", "-W", "1", *more, hosts.address(target)],
+                     code=None)
     sent, received = map(int, re.search(r"(\d+) packets transmitted, (\d+) received", text).groups())
     least = re.search(r"rtt min/avg/max/mdev = ([0-9.]+)/", text)
     return sent, received, float(least[1]) if least else None
@@ -57,7 +58,8 @@ def lost_and_doubled_frames_are_counted(hosts):
     hosts.set_line()
     after = hosts.statistics()
     change = {name: after[name] - before[name] for name in after}
-    assert 40 <= received < 100 and min(change["lost"], change["duplicated"], change["reordered"]) > 0, (received, change)
+    assert (40 <= received < 100 and
+            min(change["lost"], change["duplicated"], change["reordered"]) > 0), (received, change)
 
 
 def bandwidth_is_a_limit(hosts):
@@ -156,8 +158,9 @@ def main():
         return 77
     began = time.monotonic()
     with lab.Lab(["a", "b", "c"], wire=wire) as hosts, lab.Lab(["a"], wire=wire) as beside:
-        for test in (the_line_delays, lost_and_doubled_frames_are_counted, bandwidth_is_a_limit, a_host_is_cut_off_and_comes_back,
-                     hosts_are_apart, hosts_are_killed_stopped_and_continued, a_program_says_how_it_ended):
+        for test in (the_line_delays, lost_and_doubled_frames_are_counted, bandwidth_is_a_limit,
+                     a_host_is_cut_off_and_comes_back, hosts_are_apart, hosts_are_killed_stopped_and_continued,
+                     a_program_says_how_it_ended):
             test(hosts)
             print(f"{test.__name__}: ok", flush=True)
         assert beside.run("a", "ls", ["/dev/shm"]) == ""
