@@ -240,6 +240,10 @@ INSTANTIATE_TEST_SUITE_P(
             "text.guf:1:1: expected a keyword of the radar, found include:; this is a reserved word of GUF; choose "
             "another keyword"},
         MessageCase{
+            "WordOfGufInAnUnknownForm", "Future: { guf: { a: 1 } }",
+            "text.guf:1:11: expected a keyword of the radar, found guf:; this is a reserved word of GUF; choose "
+            "another keyword"},
+        MessageCase{
             "TooDeep", "a: " + repeated_message("{", 65),
             "text.guf:1:68: expected at most 64 brackets open at once, found one more; close a form before this one"},
         MessageCase{"TooManyWords", "a: { " + repeated_message("1 ", 200'001),

@@ -372,6 +372,7 @@ TEST(Meshes, StripsFansQuadrilateralsAndPolygonsAreCounterClockwise) {
     file.pop();
     const Model model = read(file);
     EXPECT_NEAR(total_area_m2(model), areas_m2[i], 1e-6) << "primitive " << primitives[i].first;
+    EXPECT_EQ(model.counts.corners, primitives[i].second.size());
     for (const ModelTriangle& triangle : model.triangles) EXPECT_GT(area_of(model, triangle).z, 0.0);
     EXPECT_EQ(model.kinds[0].material, 7);
     EXPECT_EQ(model.counts.vertices, 6U);
