@@ -73,9 +73,8 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
 }
 
 // A mover has the defaults of the world's record.
-using MoverFields = values::WorldMover;
-static_assert(Mover{}.cross_section_m2 == MoverFields::cross_section.initial &&
-              Mover{}.height_m == MoverFields::height.initial * MoverFields::height.factor);
+static_assert(Mover{}.cross_section_m2 == values::WorldMover::cross_section.initial);
+static_assert(Mover{}.height_m == values::WorldMover::height.initial * values::WorldMover::height.factor);
 
 model::physics::MovingPoint moving_point(const Mover& mover, const hrm::PatchOrder& order) {
   return model::physics::moving_point({{mover.latitude_deg, mover.longitude_deg},

@@ -79,7 +79,6 @@ Expected<Scene> Scene::read(const std::vector<std::string>& files, const Terrain
     if (auto added = model::scene::add_scenes(scenes, files, without); !added) {
       Error& problem = added.error();
       if (problem.subject == "scene_without") problem.subject = "without";
-      if (scenes.empty() && !problem.action.empty()) problem.action = "give a file and a name";
       radar::fail(error::usage_error(problem));
     }
     std::vector<std::string> problems;

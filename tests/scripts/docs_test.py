@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Doxygen with docs/Doxyfile: pages of a header and its source, and pages of all documents, without diagrams."""
+"""Doxygen with docs/Doxyfile: pages of a header and its source, and pages of all documents, without diagrams.
+Documents and examples have the version of the build."""
 import html
 import os
 import pathlib
@@ -147,6 +148,17 @@ class Documents(unittest.TestCase):
             choices = ((html_folder / "md_docs_decisions_0013_maps_under_the_pilots_hand.html")
                        .read_text(encoding="utf-8"))
             self.assertIn('href="md_docs_pilots_manual.html#docs_pilots_manual_rule-5"', choices)
+
+
+class Versions(unittest.TestCase):
+    def test_documents_have_the_version_of_the_build(self):
+        version = re.search(r"project\(yars VERSION (\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
+        files = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *ROOT.glob("examples/*.txt"),
+                 *ROOT.glob("packaging/cmake/*")]
+        found = [(path.relative_to(ROOT).as_posix(), at) for path in files for at in re.findall(
+            r"find_package\(yars (\d+\.\d+)|libyars-\w+\.so\.(\d+\.\d+)", path.read_text(encoding="utf-8"))]
+        self.assertGreater(len(found), 5)
+        self.assertEqual([one for one in found if version not in one[1]], [])
 
 
 if __name__ == "__main__":

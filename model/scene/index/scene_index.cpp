@@ -55,7 +55,7 @@ error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::stri
   NameFilter all(name);
   if (scenes.empty() || all.unmatched_names().empty())
     return error::fail("scene_without", "a scene, and the name of a part to leave out",
-                       scenes.empty() ? "no scene" : "an empty name", "give `scene` and a name");
+                       scenes.empty() ? "no scene" : "an empty name", "give the file of a scene, and a name");
   bool applied = false;
   for (radar::Scene& scene : scenes) {
     std::error_code code;
