@@ -1,8 +1,10 @@
-// Rows of the air: gases, rain.
+// Rows of the air: gases, reference atmosphere, rain at 9.6 GHz.
 #include <string>
 
 #include "lib/radar/configuration.hpp"
 #include "model/physics/atmosphere.hpp"
+#include "model/physics/reflectivity.hpp"
+#include "tests/model/physics/decibels.hpp"
 #include "tests/truth/ledger.hpp"
 
 namespace yars::truth {
@@ -10,22 +12,96 @@ namespace {
 
 namespace physics = model::physics;
 
+struct AirPoint {
+  std::string of;  // frequency, height or path
+  double x, outside;
+};
+
+double at_sea_level_db_per_km(double frequency_ghz) {
+  const auto found = physics::gas_attenuation(frequency_ghz, {288.15, 1013.25, 7.5});
+  return found.dry + found.water;
+}
+
 TEST(Truth, GasesAttenuateAsTheRecommendationSays) {
-  struct Example {
-    double frequency_ghz, db_per_km;
+  for (const AirPoint& point : {AirPoint{"8", 8.0, 0.011416},
+                                {"9", 9.0, 0.0126844231824067},
+                                {"10", 10.0, 0.0141985419481866},
+                                {"11", 11.0, 0.0160185121242455},
+                                {"12", 12.0, 0.018234}})
+    expect_row({"Gases", "attenuation at " + point.of + " GHz, 15 °C, 1013.25 hPa dry, 7.5 g/m³", point.outside, 1e-6,
+                "dB/km", "ITU-R P.676-13, Annex 1, and the ITU's validation examples", "the example has six digits"},
+               at_sea_level_db_per_km(point.x));
+}
+
+TEST(Truth, GasesAttenuateAsInAnotherProgramInXBand) {
+  for (const AirPoint& point : {AirPoint{"9.3", 9.3, 0.013111}, {"9.6", 9.6, 0.013560}, {"9.7", 9.7, 0.013715}})
+    expect_row({"Gases", "attenuation at " + point.of + " GHz, 15 °C, 1013.25 hPa dry, 7.5 g/m³", point.outside, 1e-6,
+                "dB/km", "ITU-R P.676-13, Annex 1, by another program", "the value has six decimals"},
+               at_sea_level_db_per_km(point.x));
+}
+
+// The other program takes the pressure of P.835 as that of dry air and water vapour together.
+constexpr char kDryPressure[] = "YARS takes P.835's pressure as dry: 1.2 %";
+
+TEST(Truth, GasesThinOutWithHeight) {
+  const physics::GasProfile profile(radar::AtmosphereConfiguration(), 9.7);
+  for (const AirPoint& point : {AirPoint{"1", 1.0, 0.009773},
+                                {"3", 3.0, 0.005645},
+                                {"5", 5.0, 0.003516},
+                                {"8", 8.0, 0.001805},
+                                {"12", 12.0, 0.000667}})
+    expect_row({"Gases", "attenuation at 9.7 GHz, " + point.of + " km high, mean annual atmosphere", point.outside,
+                0.012 * point.outside, "dB/km", "ITU-R P.676-13 in the air of P.835, by another program", kDryPressure},
+               1000.0 * profile.db_per_m(1000.0 * point.x));
+}
+
+TEST(Truth, GasesAttenuateOnTheWayToTheGroundAndBack) {
+  radar::RadarConfiguration configuration;
+  configuration.receiver.frequency_ghz = 9.7;
+  configuration.fidelity.earth = radar::EarthModel::sphere;
+  const physics::GasPath path(configuration);
+  const physics::EffectiveEarth earth = physics::effective_earth(configuration.fidelity, {}, {});
+  struct Path {
+    std::string of;
+    double height_ft, distance_nm, db;
   };
-  for (const Example& example : {Example{8.0, 0.011416},
-                                 {9.0, 0.0126844231824067},
-                                 {10.0, 0.0141985419481866},
-                                 {11.0, 0.0160185121242455},
-                                 {12.0, 0.018234}}) {
-    const auto found = physics::gas_attenuation(example.frequency_ghz, {288.15, 1013.25, 7.5});
-    const std::string frequency = std::to_string(static_cast<int>(example.frequency_ghz));
-    expect_row(
-        {"Gases", "attenuation at " + frequency + " GHz, 15 °C, 1013.25 hPa dry, 7.5 g/m³", example.db_per_km, 1e-6,
-         "dB/km", "ITU-R P.676-13, Annex 1, and the ITU's validation examples", "the example has six digits"},
-        found.dry + found.water);
-  }
+  for (const Path& ray : {Path{"10,000 ft, 10 NM", 10e3, 10.0, 0.329},
+                          {"10,000 ft, 80 NM", 10e3, 80.0, 2.764},
+                          {"20,000 ft, 40 NM", 20e3, 40.0, 0.959},
+                          {"20,000 ft, 160 NM", 20e3, 160.0, 4.762},
+                          {"30,000 ft, 80 NM", 30e3, 80.0, 1.533}})
+    expect_row({"Gases", "two-way loss at 9.7 GHz from " + ray.of + " to ground", ray.db, 0.012 * ray.db, "dB",
+                "ITU-R P.676-13 in the air of P.835, summed along the ray, by another program", kDryPressure},
+               -model::decibels(path.two_way_transmission(earth, geo::Length::feet(ray.height_ft).metres(),
+                                                          geo::Length::nautical_miles(ray.distance_nm).metres(), 0.0)));
+}
+
+TEST(Truth, TheReferenceAtmosphereIsThatOfTheRecommendation) {
+  const auto row = [](const std::string& of, double outside, double tolerance, const std::string& unit, double ours) {
+    expect_row({"Atmosphere", of, outside, tolerance, unit, "ITU-R P.835, mean annual global reference atmosphere",
+                "YARS takes heights as geopotential"},
+               ours);
+  };
+  const physics::Air at_5_km = physics::reference_air({}, 5e3), at_12_km = physics::reference_air({}, 12e3);
+  row("temperature 5 km high", 255.68, 0.05, "K", at_5_km.temperature_k);
+  row("pressure of dry air 5 km high", 540.48, 0.5, "hPa", at_5_km.dry_hpa);
+  row("water vapour 5 km high", 0.616, 0.002, "g/m³", at_5_km.water_g_m3);
+  row("temperature 12 km high", 216.65, 0.01, "K", at_12_km.temperature_k);
+  row("pressure of dry air 12 km high", 194.00, 1.0, "hPa", at_12_km.dry_hpa);
+}
+
+TEST(Truth, RainAttenuatesAsTheRecommendationSays) {
+  for (const AirPoint& point : {AirPoint{"10", 10.0, 0.193342}, {"50", 50.0, 1.513296}})
+    expect_row({"Rain", "attenuation at 9.6 GHz, horizontal, by " + point.of + " mm/h", point.outside,
+                0.0025 * point.outside, "dB/km", "ITU-R P.838-3, equations (1) to (3), by another program",
+                "YARS has four digits of both coefficients"},
+               1000.0 * physics::rain_attenuation_db_per_m({}, point.x));
+}
+
+TEST(Truth, RainReflectsAsDropsSmallAgainstTheWavelength) {
+  expect_row({"Rain", "reflectivity at 9.6 GHz of 10 mm/h, dielectric factor 0.93", -56.2295, 0.001, "dB 1/m",
+              "Z = 200 r^1.6, Marshall and Palmer 1948; π⁵ 0.93 Z / λ⁴, Probert-Jones 1962", "closed form"},
+             model::decibels(physics::rain_reflectivity({}, 10.0, physics::wavelength_m(9.6))));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ inline void expect_row(const Row& row, double ours) {
       << row.source << ")";
   std::FILE* const file = ledger_file();
   if (file == nullptr) return;
-  std::fprintf(file, "%s\t%s\t%.9g\t%.9g\t%.9g\t%s\t%s\t%s\n", row.topic.c_str(), row.term.c_str(), row.outside, ours,
+  std::fprintf(file, "%s\t%s\t%.15g\t%.15g\t%.9g\t%s\t%s\t%s\n", row.topic.c_str(), row.term.c_str(), row.outside, ours,
                row.tolerance, row.unit.c_str(), row.source.c_str(), row.why.c_str());
   std::fflush(file);
 }

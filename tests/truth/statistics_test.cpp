@@ -1,0 +1,142 @@
+// Rows of clutter statistics: speckle of sweeps and maps, texture.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lib/radar/configuration.hpp"
+#include "model/hrm/map_image.hpp"
+#include "model/physics/clutter_simd.hpp"
+#include "model/physics/ground_return.hpp"
+#include "model/rbm/beam.hpp"
+#include "tests/model/physics/decibels.hpp"
+#include "tests/truth/ledger.hpp"
+
+namespace yars::truth {
+namespace {
+
+namespace physics = model::physics;
+
+struct Moments {
+  double count = 0.0, sum = 0.0, squares = 0.0;
+  void add(double value) {
+    count += 1.0;
+    sum += value;
+    squares += value * value;
+  }
+  double mean() const { return sum / count; }
+  double deviation() const { return std::sqrt(squares / count - mean() * mean()); }
+};
+
+constexpr double kDynamicRange_db = 60.0;  // black to white, so that no picture clips
+constexpr double kMean_db = -14.0;         // mean power, below white
+
+void add_video(const std::vector<std::uint8_t>& video, Moments& db) {
+  for (const std::uint8_t level : video) db.add(kDynamicRange_db * (level / 255.0 - 1.0) - kMean_db);
+}
+
+// Decibels of the video of sweeps over uniform ground, relative to the mean power.
+Moments sweeps(int looks) {
+  constexpr std::size_t kSamples = 480;
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.samples = kSamples;
+  configuration.receiver.looks = looks;
+  configuration.receiver.noise_floor_db = -200.0;
+  configuration.receiver.dynamic_range_db = kDynamicRange_db;
+  configuration.pulse_us = {0.01};  // a sample is a resolution cell
+  const auto algorithm = model::rbm::make_algorithm(configuration);
+  const std::vector<float> power(2 * kSamples, static_cast<float>(physics::ratio(kMean_db)));
+  const std::span<const float> sweep = std::span(power).first(kSamples);
+  std::vector<std::uint8_t> video(kSamples);
+  Moments db;
+  for (std::uint32_t number = 0; number < 1000; ++number) {
+    algorithm->form_video({sweep, sweep, sweep}, geo::Length::nautical_miles(20.0), physics::kFullGain, {1, 1, number},
+                          video);
+    add_video(video, db);
+  }
+  return db;
+}
+
+// The same of patch maps.
+Moments maps(int looks) {
+  radar::HighResolutionConfiguration configuration;
+  configuration.dynamic_range_db = kDynamicRange_db;
+  configuration.brightest_gamma_db = -kMean_db;
+  model::hrm::MapImage image(radar::kMapCells);
+  image.power.assign(image.power.size(), 1.0F);
+  std::vector<std::uint8_t> picture(image.power.size());
+  Moments db;
+  for (std::uint32_t map = 0; map < 3; ++map) {
+    model::hrm::form_video(configuration, image, {.looks = looks, .map = map}, 0, image.size, picture);
+    add_video(picture, db);
+  }
+  return db;
+}
+
+std::string looks_of(int looks) {
+  return std::to_string(looks) + (looks == 1 ? " look" : " looks");
+}
+
+struct LooksPoint {
+  int looks;
+  double db;
+};
+
+TEST(Truth, SpeckleOfSweepsHasTheSpreadOfTheGammaDistribution) {
+  for (const LooksPoint& point : {LooksPoint{1, 5.570}, {2, 3.488}, {4, 2.314}, {8, 1.585}, {16, 1.103}})
+    expect_row({"Speckle", "standard deviation of a sweep in dB, " + looks_of(point.looks), point.db, 0.02, "dB",
+                "gamma distribution: 10/ln 10 √ψ′(L), Goodman 1975", "480,000 samples in 8 bits"},
+               sweeps(point.looks).deviation());
+}
+
+TEST(Truth, SpeckleOfSweepsLowersTheMeanOfTheLogarithm) {
+  for (const LooksPoint& point : {LooksPoint{1, -2.507}, {4, -0.565}})
+    expect_row({"Speckle", "mean of a sweep in dB, " + looks_of(point.looks), point.db, 0.03, "dB",
+                "gamma distribution: 10/ln 10 (ψ(L) − ln L)", "480,000 samples in 8 bits"},
+               sweeps(point.looks).mean());
+}
+
+TEST(Truth, SpeckleOfMapsHasTheSpreadOfTheGammaDistribution) {
+  for (const LooksPoint& point : {LooksPoint{1, 5.570}, {2, 3.488}, {3, 2.729}})
+    expect_row({"Speckle", "standard deviation of a patch map in dB, " + looks_of(point.looks), point.db, 0.02, "dB",
+                "gamma distribution: 10/ln 10 √ψ′(L), Oliver and Quegan 1998", "700,000 pixels in 8 bits"},
+               maps(point.looks).deviation());
+}
+
+TEST(Truth, SpeckleOfMapsLowersTheMeanOfTheLogarithm) {
+  for (const LooksPoint& point : {LooksPoint{2, -1.174}, {3, -0.764}})
+    expect_row({"Speckle", "mean of a patch map in dB, " + looks_of(point.looks), point.db, 0.03, "dB",
+                "gamma distribution: 10/ln 10 (ψ(L) − ln L)", "700,000 pixels in 8 bits"},
+               maps(point.looks).mean());
+}
+
+// <I^2> / <I>^2 of single-look ground with a texture.
+double second_moment(double shape) {
+  radar::RadarConfiguration configuration;
+  configuration.world.land.texture = shape;
+  physics::SurfaceReturn surface(configuration);
+  surface.use_resolution(30.0, 30.0);
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::nautical_miles(20.0));
+  constexpr std::size_t kCells = 1000;
+  std::vector<float> variates(kCells + 16);
+  Moments intensity;
+  for (std::uint32_t row = 0; row < 1000; ++row) {
+    physics::simd::speckle(kCells, physics::make_noise_state({1, 1, row}), 1, variates.data());
+    for (std::size_t column = 0; column < kCells; ++column) {
+      const geo::GeoPoint position{37.0 + 0.0005 * row, -122.0 + 0.0005 * static_cast<double>(column)};
+      const double mean = surface.cross_section_m2(receiver, {position, {}, 20e3, 0.1, 0.1});
+      intensity.add(mean * static_cast<double>(variates[column]));
+    }
+  }
+  return intensity.squares / intensity.count / (intensity.mean() * intensity.mean());
+}
+
+TEST(Truth, TexturedGroundIsKDistributed) {
+  for (const auto& [name, shape, outside] : {std::tuple("1", 1.0, 4.0), {"8", 8.0, 2.25}})
+    expect_row(
+        {"Texture", std::string("⟨I²⟩/⟨I⟩² of textured land, one look, shape ") + name, outside, 0.02 * outside, "",
+         "K distribution: 2 (1 + 1/ν), Ward, Tough and Watts 2013", "a million samples; 256 levels of texture"},
+        second_moment(shape));
+}
+
+}  // namespace
+}  // namespace yars::truth
