@@ -77,17 +77,19 @@ TEST(Truth, GasesAttenuateOnTheWayToTheGroundAndBack) {
 }
 
 TEST(Truth, TheReferenceAtmosphereIsThatOfTheRecommendation) {
-  const auto row = [](const std::string& of, double outside, double tolerance, const std::string& unit, double ours) {
-    expect_row({"Atmosphere", of, outside, tolerance, unit, "ITU-R P.835, mean annual global reference atmosphere",
-                "YARS takes heights as geopotential"},
-               ours);
+  const auto row = [](const std::string& of, double outside, double tolerance, const std::string& unit,
+                      const std::string& why, double ours) {
+    expect_row(
+        {"Atmosphere", of, outside, tolerance, unit, "ITU-R P.835, mean annual global reference atmosphere", why},
+        ours);
   };
+  const std::string heights = "YARS takes heights as geopotential";
   const physics::Air at_5_km = physics::reference_air({}, 5e3), at_12_km = physics::reference_air({}, 12e3);
-  row("temperature 5 km high", 255.68, 0.05, "K", at_5_km.temperature_k);
-  row("pressure of dry air 5 km high", 540.48, 0.5, "hPa", at_5_km.dry_hpa);
-  row("water vapour 5 km high", 0.616, 0.002, "g/m³", at_5_km.water_g_m3);
-  row("temperature 12 km high", 216.65, 0.01, "K", at_12_km.temperature_k);
-  row("pressure of dry air 12 km high", 194.00, 1.0, "hPa", at_12_km.dry_hpa);
+  row("temperature 5 km high", 255.68, 0.05, "K", heights, at_5_km.temperature_k);
+  row("pressure of dry air 5 km high", 540.48, 0.5, "hPa", heights, at_5_km.dry_hpa);
+  row("water vapour 5 km high", 0.616, 0.0005, "g/m³", "the value has three decimals", at_5_km.water_g_m3);
+  row("temperature 12 km high", 216.65, 0.001, "K", "the layer has one temperature", at_12_km.temperature_k);
+  row("pressure of dry air 12 km high", 194.00, 1.0, "hPa", heights, at_12_km.dry_hpa);
 }
 
 TEST(Truth, RainAttenuatesAsTheRecommendationSays) {

@@ -31,7 +31,7 @@ TEST(Truth, AMapTakesTheTimeOfItsSyntheticArray) {
 
 TEST(Truth, AWindowHasTheCellsOfTheReport) {
   for (const auto& [name, window_nm, outside] :
-       {std::tuple("0.67 NM", 0.67, 8.5), {"4.7 NM", 4.7, 59.5}, {"20 NM", 20.0, 253.0}})
+       {std::tuple("0.67 NM", 0.67, 8.5), {"3.3 NM", 3.3, 41.8}, {"10 NM", 10.0, 127.0}})
     expect_row({"Doppler", std::string("cell of a patch map of ") + name, outside, outside < 100.0 ? 0.05 : 0.5, "ft",
                 "report of 1996, table 1", "the report's last digit"},
                radar::map_resolution(geo::Length::nautical_miles(window_nm)).feet());

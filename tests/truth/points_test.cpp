@@ -80,7 +80,7 @@ model::rbm::Reply beacon(double distance_m, double power_w, double delay_us) {
   return replies.empty() ? model::rbm::Reply() : replies[0];
 }
 
-constexpr char kRadarEquation[] = "radar equation, Skolnik, Introduction to Radar Systems, chapter 1";
+constexpr char kRadarEquation[] = "radar equation, P ∝ σ / R⁴, Skolnik, Introduction to Radar Systems";
 
 TEST(Truth, ATargetLosesTwelveDecibelsAtTwiceTheRange) {
   expect_row(
@@ -98,12 +98,12 @@ TEST(Truth, PulseLimitedClutterLosesNineDecibelsAtTwiceTheRange) {
     return physics::returned_power(physics::illuminated_area_m2(receiver, range_m, sine), 1.0, range_m);
   };
   expect_row({"Radar equation", "clutter of equal σ⁰ at 40 km over 20 km, pulse-limited", -9.0309, 0.001, "dB",
-              "surface clutter equation, Skolnik, Introduction to Radar Systems, chapter 7", "closed form"},
+              "surface clutter equation, P ∝ σ⁰ / R³, Skolnik, Introduction to Radar Systems", "closed form"},
              model::decibels(power(40e3) / power(20e3)));
 }
 
 TEST(Truth, AJammerAndItsTargetHaveTheRatioOfTheHandbook) {
-  const std::string source = "4π R² ERP_j / (ERP_r σ), NAWCWPNS TP 8347, section 4-7";
+  const std::string source = "4π R² ERP_j / (ERP_r σ), jamming-to-signal ratio, NAWCWPNS TP 8347";
   expect_row({"Emitters", "jammer of 10 W over target of 10 m², 50 km", 32.9715, 0.002, "dB", source, "closed form"},
              model::decibels(jammer(50e3, 10.0) / target(50e3, 10.0)));
   expect_row({"Emitters", "jammer of 10 W over target of 100 m², 20 km", 15.0127, 0.002, "dB", source, "closed form"},
@@ -113,7 +113,7 @@ TEST(Truth, AJammerAndItsTargetHaveTheRatioOfTheHandbook) {
 }
 
 TEST(Truth, ABeaconRepliesByTheOneWayEquation) {
-  const std::string source = "one-way radar equation, NAWCWPNS TP 8347, section 4-3";
+  const std::string source = "4π R² ERP_b / (ERP_r σ), one-way radar equation, NAWCWPNS TP 8347";
   expect_row({"Emitters", "beacon of 100 W over target of 10 m², 50 km", 42.9715, 0.002, "dB", source, "closed form"},
              model::decibels(beacon(50e3, 100.0, 2.0).power / target(50e3, 10.0)));
   expect_row({"Emitters", "beacon at 60 km over beacon at 30 km", -6.0206, 0.001, "dB", source, "closed form"},
@@ -122,7 +122,7 @@ TEST(Truth, ABeaconRepliesByTheOneWayEquation) {
 
 TEST(Truth, ABeaconsDelayOfARadarMileIsAMile) {
   expect_row({"Emitters", "range added to a reply by 12.36 µs of delay", 1.0, 0.001, "NM",
-              "radar mile, Skolnik, Introduction to Radar Systems, chapter 1", "the delay has four digits"},
+              "radar mile of 12.36 µs, Skolnik, Introduction to Radar Systems", "the delay has four digits"},
              geo::Length::metres(beacon(30e3, 100.0, 12.36).slant_range_m - 30e3).nautical_miles());
 }
 

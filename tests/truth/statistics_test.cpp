@@ -91,7 +91,7 @@ TEST(Truth, SpeckleOfSweepsHasTheSpreadOfTheGammaDistribution) {
 TEST(Truth, SpeckleOfSweepsLowersTheMeanOfTheLogarithm) {
   for (const LooksPoint& point : {LooksPoint{1, -2.507}, {4, -0.565}})
     expect_row({"Speckle", "mean of a sweep in dB, " + looks_of(point.looks), point.db, 0.03, "dB",
-                "gamma distribution: 10/ln 10 (ψ(L) − ln L)", "480,000 samples in 8 bits"},
+                "gamma distribution: 10/ln 10 (ψ(L) − ln L), Oliver and Quegan 1998", "480,000 samples in 8 bits"},
                sweeps(point.looks).mean());
 }
 
@@ -105,7 +105,7 @@ TEST(Truth, SpeckleOfMapsHasTheSpreadOfTheGammaDistribution) {
 TEST(Truth, SpeckleOfMapsLowersTheMeanOfTheLogarithm) {
   for (const LooksPoint& point : {LooksPoint{2, -1.174}, {3, -0.764}})
     expect_row({"Speckle", "mean of a patch map in dB, " + looks_of(point.looks), point.db, 0.03, "dB",
-                "gamma distribution: 10/ln 10 (ψ(L) − ln L)", "700,000 pixels in 8 bits"},
+                "gamma distribution: 10/ln 10 (ψ(L) − ln L), Oliver and Quegan 1998", "700,000 pixels in 8 bits"},
                maps(point.looks).mean());
 }
 
