@@ -266,8 +266,6 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .purpose = "maximum load as a fraction of a CPU core, for automatic"},
       flag("slantRange", YARS_FIELD(radar.fidelity.slant_range),
            "true: samples are equidistant in slant range; false: in ground range"),
-      flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
-           "incidence angle includes the slope across the sweep"),
       flag("noise", YARS_FIELD(radar.fidelity.noise),
            "random fluctuation: of sweeps by speckle and texture, of patch maps by speckle"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over three sweeps"),

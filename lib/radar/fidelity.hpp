@@ -37,11 +37,10 @@ struct Fidelity {
   // Rays across the beam in azimuth, weighted by the beam pattern, which successive sweeps share. 1: a ray for each
   // sweep, in the middle of its beam.
   int sub_beams = 4;
-  bool slant_range = false;        // true: samples at equal steps of slant range; false: of ground range
-  bool cross_track_slope = false;  // the angle of incidence includes the slope across the sweep
-  bool noise = true;               // random fluctuation: speckle and texture of sweeps, speckle of maps
-  bool azimuth_smear = false;      // smear over three sweeps
-  bool pulse_smear = true;         // smear over the pulse length
+  bool slant_range = false;    // true: samples at equal steps of slant range; false: of ground range
+  bool noise = true;           // random fluctuation: speckle and texture of sweeps, speckle of maps
+  bool azimuth_smear = false;  // smear over three sweeps
+  bool pulse_smear = true;     // smear over the pulse length
   BeamPattern beam = BeamPattern::cosecant_squared;
   // Parameters of patch maps.
   int map_size = 480;              // [pixels] edge of the map; in a session at most 1024

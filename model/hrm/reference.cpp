@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kPathSpacing_m = 15.0;  // [m] spacing of samples on the path if its terrain has no posts
 constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples on ground without posts (sea), which GroundWalk omits
-constexpr double kMinWalkSpacing = 0.1;  // [post spacings] rows closer than this need no GroundWalk between them
-// Steps of GroundWalk per post spacing on the path, if rows are closer than kMinWalkSpacing: the edges of shadows
-// that the path casts must be exact to a row.
+// Steps of GroundWalk per post spacing on the path, if rows are closer than kFineSpacing [post spacings]: the edges of
+// shadows that the path casts must be exact to a row.
+constexpr double kFineSpacing = 0.1;
 constexpr double kFineSteps = 40.0;
 constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
 constexpr double kFacetPixels = 1.0 / 3.0;  // [pixels] maximum side of a facet, a piece of ground or of a face
@@ -92,16 +92,15 @@ void Reference::read_column(const PatchEnvironment& terrain, int column) {
   const bool posts = terrain.path->post_spacing_m() > 0.0;
   raise_between(*terrain.path, 0.0, grid.first_distance_m, posts ? kSeaSpacing_m : kPathSpacing_m);
   const double posts_m = terrain.window->post_spacing_m();
-  const bool walk = grid.spacing_m > kMinWalkSpacing * posts_m;
-  const double steps = walk ? physics::GroundWalk::kStepsPerPost : kFineSteps;
+  const double steps = grid.spacing_m > kFineSpacing * posts_m ? physics::GroundWalk::kStepsPerPost : kFineSteps;
   raise(physics::GroundWalk(sweep, earth, *terrain.path, fidelity_.interpolation, steps)
             .highest_tangent(0.0, grid.first_distance_m));
-  const physics::GroundWalk ground_walk(sweep, earth, *terrain.window, fidelity_.interpolation);
+  const physics::GroundWalk ground_walk(sweep, earth, *terrain.window, fidelity_.interpolation, kFineSteps);
   for (int row = 0; row < grid.rows; ++row) {
     const std::size_t at = grid.at(column, row);
     const double distance_m = grid.distance_m(row);
     top_m_[at] = height_m_[at] = height_m(*terrain.window, distance_m);
-    if (walk && row > 0) {
+    if (row > 0) {
       const double crest = ground_walk.highest_tangent(grid.distance_m(row - 1.0), distance_m);
       raise(crest);
       if (!(crest > kNoTangent)) raise_between(*terrain.window, grid.distance_m(row - 1.0), distance_m, kSeaSpacing_m);

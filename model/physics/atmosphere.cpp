@@ -362,7 +362,7 @@ double RainPath::power(const Receiver& receiver, const EffectiveEarth& earth, co
     const Sight top = earth.sight(geometry.altitude.metres(), distance_m, crossing.shower->top_m);
     const double lit_rad = beam_integral(beam_, receiver.elevation_beamwidth_rad, geometry.elevation.radians(),
                                          horizon_rad, top.elevation_rad);
-    const double across_m2 = top.slant_range_m * receiver.azimuth_beamwidth_rad * top.slant_range_m * lit_rad;
+    const double across_m2 = top.slant_range_m * receiver.azimuth_cell_rad * top.slant_range_m * lit_rad;
     total += returned_power(crossing.shower->reflectivity * profile * across_m2 * receiver.pulse_length_m, 1.0,
                             top.slant_range_m);
   }

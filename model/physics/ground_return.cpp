@@ -51,24 +51,20 @@ double SurfaceReturn::texture(std::size_t material, geo::GeoPoint position) cons
   return static_cast<double>(texture_[material][ground_bits(grid_, position) >> 24U]);
 }
 
-double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& facet) const {
+SurfaceReturn::Reflectivity SurfaceReturn::at(const Facet& facet) const {
   const std::size_t material = facet.material < radar::kMaterials ? facet.material : 0;
   const double water = material == kWater ? 1.0 : facet.water;
-  double total_m2 = 0.0;
+  Reflectivity found;
   if (water < 1.0) {
-    double gamma = land_.gamma[material];
+    found.gamma = (1.0 - water) * land_.gamma[material] * texture(material, facet.position);
     if (land_.cardinal[material] > 0.0) {
       const double off_deg = off_street_deg(facet.azimuth.degrees(), street_bearing_deg(facet.position));
-      gamma *= cardinal_gain(land_.cardinal[material], off_deg, land_.cardinal_width_deg);
+      found.gamma *= cardinal_gain(land_.cardinal[material], off_deg, land_.cardinal_width_deg);
     }
-    total_m2 += (1.0 - water) * gamma * facet.sin_local * texture(material, facet.position) *
-                illuminated_area_m2(receiver, facet.slant_range_m, facet.sin_local);
   }
-  if (water > 0.0 && facet.sin_grazing > 0.0) {
-    total_m2 += water * sea_sigma0(sea_, facet.sin_grazing, facet.azimuth) * texture(kWater, facet.position) *
-                illuminated_area_m2(receiver, facet.slant_range_m, facet.sin_grazing);
-  }
-  return total_m2;
+  if (water > 0.0 && facet.sin_grazing > 0.0)
+    found.sigma0 = water * sea_sigma0(sea_, facet.sin_grazing, facet.azimuth) * texture(kWater, facet.position);
+  return found;
 }
 
 namespace {

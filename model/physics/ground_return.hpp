@@ -1,11 +1,8 @@
-// Radar cross section and reflectivity of the ground. SurfaceReturn computes the cross section of one sample in double
-// precision. Ground computes the reflectivity of a sweep in float.
-// Inputs: positions, surface materials, fraction of water, grazing angles, azimuth.
-// Outputs: cross section [m^2], or gamma and sigma0 as power ratios.
-// Accuracy: at half the selected range, Ground agrees with SurfaceReturn within 0.02 dB below 15 degrees grazing.
-// Unknown material codes reflect as land without culture.
-// Threads: one thread at a time may use a Ground.
-// Source: docs/spec/physics.md#land, docs/spec/physics.md#sea, docs/spec/physics.md#speckle.
+// Reflectivity of the ground. SurfaceReturn computes that of one position in double precision. Ground computes that of
+// a sweep in float. Inputs: positions, surface materials, fraction of water, grazing angles, azimuth. Outputs: gamma
+// and sigma0 as power ratios. Accuracy: at half the selected range, Ground agrees with SurfaceReturn within 0.02 dB
+// below 15 degrees grazing. Unknown material codes reflect as land without culture. Threads: one thread at a time may
+// use a Ground. Source: docs/spec/physics.md#land, docs/spec/physics.md#sea, docs/spec/physics.md#speckle.
 #pragma once
 
 #include <array>
@@ -21,18 +18,16 @@
 
 namespace yars::model::physics {
 
-// Ground of one sample.
+// Ground at one position.
 struct Facet {
   geo::GeoPoint position;
-  geo::Bearing azimuth;        // azimuth of the ray at the position
-  double slant_range_m = 0.0;  // > 0
-  double sin_local = 0.0;      // [0, 1] sine of the local grazing angle on the facet; used by land
-  double sin_grazing = 0.0;    // sine of the grazing angle on level ground; used by the sea
-  double water = 0.0;          // [0, 1] fraction of water, as terrain::Surface::water
-  std::uint8_t material = 0;   // surface material code; the water material sets the fraction of water to 1
+  geo::Bearing azimuth;       // azimuth of the ray at the position
+  double sin_grazing = 0.0;   // sine of the grazing angle on level ground; used by the sea
+  double water = 0.0;         // [0, 1] fraction of water, as terrain::Surface::water
+  std::uint8_t material = 0;  // surface material code; the water material sets the fraction of water to 1
 };
 
-// Cross section of the ground in one resolution cell, in double precision, for the algorithm `reference`.
+// Reflectivity of the ground at one position, in double precision, for the algorithm `reference`.
 // Land return depends on material and cardinal effect (stronger return of walls that face the radar). Sea return
 // depends on wind and grazing angle. Texture (clutter.hpp) multiplies both.
 class SurfaceReturn {
@@ -44,8 +39,11 @@ class SurfaceReturn {
   // Sets the cell size of the texture. Call it once a sweep; it does nothing if the size is unchanged.
   void use_resolution(double pulse_length_m, double spacing_m);
 
-  // Cross section: sigma0 times illuminated area times texture.
-  double cross_section_m2(const Receiver& receiver, const Facet& facet) const;
+  struct Reflectivity {
+    double gamma = 0.0;   // of the land, times its fraction: cross section per area normal to the ray
+    double sigma0 = 0.0;  // of the water, times its fraction: cross section per area of the level ground
+  };
+  Reflectivity at(const Facet& facet) const;
 
  private:
   double texture(std::size_t material, geo::GeoPoint position) const;

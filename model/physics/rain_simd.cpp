@@ -355,7 +355,7 @@ simd::RainConstants RainSamples::constants(const SweepGeometry& geometry, const 
 void RainSamples::measure(const SweepGeometry& geometry, const EffectiveEarth& earth, const Receiver& receiver,
                           std::size_t first, const simd::RainGround& ground) {
   const double octaves_per_db = std::log2(10.0) / 10.0;
-  const double scale = receiver.azimuth_beamwidth_rad * receiver.pulse_length_m / receiver.full_scale;
+  const double scale = receiver.azimuth_cell_rad * receiver.pulse_length_m / receiver.full_scale;
   crossings_.clear();
   for (const Crossed& crossed : crossed_) {
     const RainChord& chord = crossed.chord;

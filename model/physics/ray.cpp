@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "lib/geo/geodesy.hpp"
 #include "model/physics/ray_simd.hpp"
@@ -211,79 +212,80 @@ double finer(double a, double b) {
 }
 }  // namespace
 
+GroundWalk::GroundWalk(const SweepGeometry& geometry, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
+                       radar::Interpolation interpolation, double steps_per_post)
+    : geometry_(geometry),
+      earth_(earth),
+      terrain_(terrain),
+      interpolation_(interpolation),
+      steps_per_post_(steps_per_post),
+      ray_(geometry.apex, geometry.azimuth),
+      passage_(geometry.apex, geometry.azimuth, kMaxBend_m, kMinPiece_m) {}
+
 double GroundWalk::highest_tangent(double from_m, double to_m) const {
-  const geo::GeodesicRay ray(geometry_.apex, geometry_.azimuth);
-  const PolarPassage passage(geometry_.apex, geometry_.azimuth, kMaxBend_m, kMinPiece_m);
-  if (passage.min_straight_m(from_m, to_m) >= kMaxPiece_m) return highest_of_pieces(ray, from_m, to_m);
   double highest = kNoGround;
-  for (double begin_m = from_m; begin_m < to_m;) {
-    const double end_m = std::min(begin_m + std::min(passage.max_straight_m(begin_m), kMaxPiece_m), to_m);
-    highest = std::max(highest, highest_of_piece(ray, begin_m, end_m, end_m < to_m));
-    begin_m = end_m;
-  }
+  visit(from_m, to_m, 0.0, [&](const Point& point) {
+    if (point.distance_m >= to_m || std::isnan(point.surface.peak_m)) return;
+    highest = std::max(highest, earth_.tangent(geometry_.altitude.metres(), point.distance_m, point.surface.peak_m));
+  });
   return highest;
 }
 
-double GroundWalk::highest_of_pieces(const geo::GeodesicRay& ray, double from_m, double to_m) const {
-  const int pieces = static_cast<int>(std::max(1.0, std::ceil((to_m - from_m) / kMaxPiece_m)));
-  double highest = kNoGround;
-  for (int piece = 0; piece < pieces; ++piece) {
-    const double begin_m = from_m + (to_m - from_m) * piece / pieces;
-    const double end_m = from_m + (to_m - from_m) * (piece + 1) / pieces;
-    highest = std::max(highest, highest_of_piece(ray, begin_m, end_m, piece + 1 < pieces));
-  }
-  return highest;
+namespace {
+// Crossings of parallel lines, which lie at whole numbers, by a piece from `from` to `from` + `run`, as fractions of
+// the piece: the first, and the interval. Of more than `most` lines only every n-th is taken.
+std::pair<double, double> crossings(double from, double run, double most) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  if (run == 0.0) return {kNone, 0.0};
+  const double stride = std::max(1.0, std::floor(std::abs(run) / std::max(most, 1.0)));
+  const double first = run > 0.0 ? std::floor(from) + 1.0 : std::ceil(from) - 1.0;
+  return {(first - from) / run, stride / std::abs(run)};
 }
+}  // namespace
 
-double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, double to_m, bool with_end) const {
-  const geo::GeoPoint begin = ray.position(geo::Length::metres(from_m));
-  const geo::GeoPoint end = ray.position(geo::Length::metres(to_m));
+GroundWalk::Piece GroundWalk::piece_from(double from_m, double limit_m, double bare_step_m) const {
+  const double to_m = std::min(from_m + std::min(passage_.max_straight_m(from_m), kMaxPiece_m), limit_m);
+  const geo::GeoPoint begin = ray_.position(geo::Length::metres(from_m));
+  const geo::GeoPoint end = ray_.position(geo::Length::metres(to_m));
   const terrain::PostSpacing at_begin = terrain_.post_spacing_at(begin), at_end = terrain_.post_spacing_at(end);
-  const terrain::PostSpacing posts{finer(at_begin.ray_step_m, at_end.ray_step_m),
-                                   finer(at_begin.columns_deg, at_end.columns_deg)};
-  if (!(posts.ray_step_m > 0.0)) return kNoGround;
-  const Piece piece{begin,
-                    end.latitude_deg - begin.latitude_deg,
-                    geo::wrapped_degrees(end.longitude_deg - begin.longitude_deg),
-                    from_m,
-                    to_m,
-                    posts};
-  const double steps = std::ceil((to_m - from_m) * steps_per_post_ / posts.ray_step_m);
-  double highest = highest_of_columns(piece);
-  for (double step = 1.0; with_end ? step <= steps : step < steps; step += 1.0)
-    highest = std::max(highest, tangent_along(piece, step / steps));
-  return highest;
+  const double posts_m = finer(at_begin.ray_step_m, at_end.ray_step_m);
+  Piece piece{begin,
+              end.latitude_deg - begin.latitude_deg,
+              geo::wrapped_degrees(end.longitude_deg - begin.longitude_deg),
+              from_m,
+              to_m,
+              {},
+              {std::numeric_limits<double>::infinity(), 0.0},
+              {std::numeric_limits<double>::infinity(), 0.0},
+              posts_m > 0.0 || bare_step_m > 0.0};
+  if (!piece.left) return piece;
+  const double step_m = posts_m > 0.0 ? posts_m / steps_per_post_ : bare_step_m;
+  const double steps = std::max(1.0, std::ceil((to_m - from_m) / step_m));
+  piece.steps = {1.0 / steps, 1.0 / steps};
+  if (!(posts_m > 0.0)) return piece;
+  const auto lines = [&](double from_deg, double run_deg, double spacing_deg) {
+    const auto [first, interval] = crossings(from_deg / spacing_deg, run_deg / spacing_deg, steps);
+    return Series{first, interval};
+  };
+  piece.rows = lines(begin.latitude_deg, piece.north_deg, finer(at_begin.rows_deg, at_end.rows_deg));
+  piece.columns = lines(begin.longitude_deg, piece.east_deg, finer(at_begin.columns_deg, at_end.columns_deg));
+  return piece;
 }
 
-// Maximum tangent where the ray crosses columns of posts, which converge towards a pole. Columns are tested only if
-// they are less than posts.ray_step_m apart. If several columns lie within one step of the walk, only one of them is
-// tested.
-double GroundWalk::highest_of_columns(const Piece& piece) const {
-  const double latitude_rad = (piece.begin.latitude_deg + 0.5 * piece.north_deg) * geo::kRadiansPerDegree;
-  const double column_m = geo::kMetresPerDegree * piece.posts.columns_deg * std::cos(latitude_rad);
-  if (column_m >= piece.posts.ray_step_m) return kNoGround;
-  const double first = piece.begin.longitude_deg / piece.posts.columns_deg;
-  const double columns = piece.east_deg / piece.posts.columns_deg;
-  const double steps = (piece.to_m - piece.from_m) * steps_per_post_ / piece.posts.ray_step_m;
-  const double stride = std::max(1.0, std::floor(std::abs(columns) / std::max(steps, 1.0)));
-  const double first_line = std::floor(std::min(first, first + columns)) + 1.0;
-  const double last_line = std::ceil(std::max(first, first + columns)) - 1.0;
-  const int lines = static_cast<int>(std::floor((last_line - first_line) / stride)) + 1;
-  double highest = kNoGround;
-  for (int line = 0; line < lines; ++line)
-    highest = std::max(highest, tangent_along(piece, (first_line + line * stride - first) / columns));
-  return highest;
-}
-
-double GroundWalk::tangent_along(const Piece& piece, double fraction) const {
-  return tangent(
-      {piece.begin.latitude_deg + fraction * piece.north_deg, piece.begin.longitude_deg + fraction * piece.east_deg},
-      piece.from_m + fraction * (piece.to_m - piece.from_m));
-}
-
-double GroundWalk::tangent(geo::GeoPoint position, double distance_m) const {
-  const double peak_m = terrain_.surface_at(position, interpolation_).peak_m;
-  return std::isnan(peak_m) ? kNoGround : earth_.tangent(geometry_.altitude.metres(), distance_m, peak_m);
+GroundWalk::Point GroundWalk::next_point(Piece& piece) const {
+  // A position within a millimetre of the end counts as the end, so that the ground does not hide itself.
+  constexpr double kEnd = 1.0 - 1e-6;
+  double fraction = 1.0;
+  for (const Series* series : {&piece.steps, &piece.rows, &piece.columns})
+    fraction = std::min(fraction, series->next());
+  for (Series* series : {&piece.steps, &piece.rows, &piece.columns})
+    if (series->next() <= fraction) series->number += 1.0;
+  piece.left = fraction < kEnd;
+  if (!piece.left) fraction = 1.0;
+  const geo::GeoPoint position{piece.begin.latitude_deg + fraction * piece.north_deg,
+                               piece.begin.longitude_deg + fraction * piece.east_deg};
+  return {piece.left ? piece.from_m + fraction * (piece.to_m - piece.from_m) : piece.to_m, position,
+          terrain_.surface_at(position, interpolation_)};
 }
 
 }  // namespace yars::model::physics

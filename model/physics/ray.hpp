@@ -101,24 +101,38 @@ class PositionSampler {
 void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
                       PositionArrays& positions);
 
-// Highest tangent of the ground's elevation angle along a ray between two distances, in double. The algorithm
-// `reference` uses it between its samples. The ray is walked in steps of the posts' spacing / `steps_per_post`. Exact
-// geodesic positions are at most 500 m apart, closer near a pole. Between these positions the ray is straight in
-// latitude and longitude.
+// Walk over the ground along a ray, in double. The algorithm `reference` uses it. Positions of the walk: every row and
+// column of posts that the ray crosses, and steps of the posts' spacing / `steps_per_post`. Exact geodesic positions
+// are at most 500 m apart, closer near a pole. Between these positions the ray is straight in latitude and longitude.
 // Accuracy of the positions: 10 mm up to 60 degrees of latitude, 0.2 m beyond.
 class GroundWalk {
  public:
   static constexpr double kStepsPerPost = 10.0;  // steps per spacing of the posts
 
   GroundWalk(const SweepGeometry& geometry, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
-             radar::Interpolation interpolation, double steps_per_post = kStepsPerPost)
-      : geometry_(geometry),
-        earth_(earth),
-        terrain_(terrain),
-        interpolation_(interpolation),
-        steps_per_post_(steps_per_post) {}
+             radar::Interpolation interpolation, double steps_per_post = kStepsPerPost);
 
   const EffectiveEarth& earth() const { return earth_; }
+
+  struct Point {
+    double distance_m;  // over ground
+    geo::GeoPoint position;
+    terrain::Surface surface;
+  };
+
+  // The ground below the ray's start.
+  terrain::Surface below() const { return terrain_.surface_at(geometry_.apex, interpolation_); }
+
+  // Calls visit(point) for each position of the walk, ascending, from the first one farther than `from_m` to `to_m`
+  // itself. On ground without posts the steps are `bare_step_m` long; 0: such ground is left out.
+  template <class Visit>
+  void visit(double from_m, double to_m, double bare_step_m, const Visit& visit) const {
+    for (double begin_m = from_m; begin_m < to_m;) {
+      Piece piece = piece_from(begin_m, to_m, bare_step_m);
+      begin_m = piece.to_m;
+      while (piece.left) visit(next_point(piece));
+    }
+  }
 
   // Maximum tangent of the ground strictly between two distances over ground. Minus infinity if this ground is void
   // or has no posts.
@@ -136,25 +150,30 @@ class GroundWalk {
   }
 
  private:
-  double highest_of_pieces(const geo::GeodesicRay& ray, double from_m, double to_m) const;
-  // Piece of the ray, straight in latitude and longitude. `north_deg` and `east_deg` are the differences from begin to
-  // end; `east_deg` is continuous across the antimeridian.
+  // Positions along a piece at equal intervals, as fractions of the piece. The next one is first + number * interval.
+  struct Series {
+    double first, interval;
+    double number = 0.0;
+    double next() const { return first + number * interval; }
+  };
+  // Piece of the ray, straight in latitude and longitude.
   struct Piece {
     geo::GeoPoint begin;
-    double north_deg, east_deg;
+    double north_deg, east_deg;  // from begin to end; `east_deg` is continuous across the antimeridian
     double from_m, to_m;
-    terrain::PostSpacing posts;
+    Series steps, rows, columns;
+    bool left;  // its end is still to be visited
   };
-  double highest_of_piece(const geo::GeodesicRay& ray, double from_m, double to_m, bool with_end) const;
-  double highest_of_columns(const Piece& piece) const;
-  double tangent_along(const Piece& piece, double fraction) const;
-  double tangent(geo::GeoPoint position, double distance_m) const;
+  Piece piece_from(double from_m, double limit_m, double bare_step_m) const;
+  Point next_point(Piece& piece) const;
 
   const SweepGeometry& geometry_;
   const EffectiveEarth& earth_;
   const terrain::TerrainView& terrain_;
   radar::Interpolation interpolation_;
   double steps_per_post_;
+  geo::GeodesicRay ray_;
+  PolarPassage passage_;
 };
 
 }  // namespace yars::model::physics

@@ -47,6 +47,7 @@ Receivers::Receivers(const RadarParameters& parameters)
     : ranges_nm_(parameters.ranges_nm), pulse_us_(parameters.pulse_us) {
   const radar::ReceiverConfiguration& settings = parameters.receiver;
   receiver_.azimuth_beamwidth_rad = parameters.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
+  receiver_.azimuth_cell_rad = azimuth_cell_rad(receiver_.azimuth_beamwidth_rad);
   receiver_.elevation_beamwidth_rad = parameters.elevation_beamwidth_deg * geo::kRadiansPerDegree;
   const double frequency_db = frequency_term_db(parameters.world.land, settings.frequency_ghz);
   receiver_.land_gamma = ratio(settings.land_gamma_db + frequency_db);
@@ -75,19 +76,18 @@ Receiver Receivers::at(geo::Length range) const {
   receiver.pulse_length_m = pulse_length(range).metres();
   receiver.stc_range_m = range.metres();
   const double sin_grazing = std::numbers::sqrt2 / 2.0;
-  const double cross_section_m2 =
-      receiver.land_gamma * sin_grazing * illuminated_area_m2(receiver, range.metres(), sin_grazing);
+  const double cross_section_m2 = receiver.land_gamma * sin_grazing * range.metres() * receiver.azimuth_cell_rad *
+                                  illuminated_length_m(receiver, range.metres(), sin_grazing);
   receiver.full_scale = returned_power(cross_section_m2, 1.0, range.metres());
   return receiver;
 }
 
-double illuminated_area_m2(const Receiver& receiver, double slant_range_m, double sin_grazing) {
+double illuminated_length_m(const Receiver& receiver, double slant_range_m, double sin_grazing) {
   const double cos_grazing = std::sqrt(std::max(0.0, 1.0 - sin_grazing * sin_grazing));
-  const double across_m = slant_range_m * receiver.azimuth_beamwidth_rad;
-  // The smaller area has the larger inverse. Inverses avoid a division by zero at grazing angles of 0 and 90 degrees.
+  // The smaller length has the larger inverse. Inverses avoid a division by zero at 0 and 90 degrees.
   const double pulse_inverse = cos_grazing / receiver.pulse_length_m;
   const double beam_inverse = sin_grazing / (slant_range_m * receiver.elevation_beamwidth_rad);
-  return across_m / std::max(pulse_inverse, beam_inverse);
+  return 1.0 / std::max(pulse_inverse, beam_inverse);
 }
 
 double returned_power(double cross_section_m2, double gain, double slant_range_m) {
@@ -125,24 +125,40 @@ double azimuth_gain(double beamwidth_rad, double offset_rad) {
   return gaussian(offset_rad, beamwidth_rad);
 }
 
+double azimuth_cell_rad(double beamwidth_rad) {
+  return std::sqrt(std::numbers::pi / kTwoWayExponent) * beamwidth_rad;
+}
+
 double received(const Receiver& receiver, double power, double slant_range_m) {
   return power * std::pow(slant_range_m / receiver.stc_range_m, receiver.stc_exponent) / receiver.full_scale;
 }
 
+double pulse_weight(double pulse_samples, double offset_samples) {
+  // Integral of the cell up to an offset, and the integral of that.
+  const auto cell = [](double u) { return std::clamp(u + 0.5, 0.0, 1.0); };
+  const auto cells = [&](double u) { return u > 0.5 ? u : 0.5 * cell(u) * cell(u); };
+  constexpr double kShort = 1e-6;  // [samples] a pulse without extent
+  if (pulse_samples < kShort) return cell(offset_samples);
+  const double half = 0.5 * pulse_samples;
+  return (cells(offset_samples + half) - cells(offset_samples - half)) / pulse_samples;
+}
+
+namespace {
+constexpr double kMaxPulse = 2.0 * static_cast<double>(PulseSmear::kMaxRadius) - 1.0;  // [samples]
+}  // namespace
+
 double point_smear_gain(double pulse_samples) {
-  return std::clamp(pulse_samples, 1.0, 2.0 * static_cast<double>(PulseSmear::kMaxRadius));
+  return pulse_samples > 0.0 ? std::min(pulse_samples, kMaxPulse) : 1.0;
 }
 
 PulseSmear make_pulse_smear(double pulse_samples) {
   PulseSmear smear;
-  const double length = point_smear_gain(pulse_samples);
-  const double half = 0.5 * length;
-  smear.reach = static_cast<std::ptrdiff_t>(std::ceil(half - 0.5));
+  const double length = std::min(pulse_samples, kMaxPulse);
+  smear.reach = static_cast<std::ptrdiff_t>(std::ceil(0.5 * length));
   for (std::ptrdiff_t offset = -smear.reach; offset <= smear.reach; ++offset) {
-    // Fraction of the pulse that covers this sample.
     const auto centre = static_cast<double>(offset);
-    const double overlap = std::min(centre + 0.5, half) - std::max(centre - 0.5, -half);
-    smear.weights[static_cast<std::size_t>(offset + smear.reach)] = std::max(0.0, overlap) / length;
+    smear.weights[static_cast<std::size_t>(offset + smear.reach)] =
+        pulse_weight(length, centre + 0.5) - pulse_weight(length, centre - 0.5);
   }
   return smear;
 }

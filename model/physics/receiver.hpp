@@ -18,6 +18,7 @@ namespace yars::model::physics {
 // Constants of transmitter, antenna and receiver at one selected range, as plain numbers for hot loops.
 struct Receiver {
   double azimuth_beamwidth_rad = 0.0;
+  double azimuth_cell_rad = 0.0;  // width of the clutter cell: azimuth_cell_rad()
   double elevation_beamwidth_rad = 0.0;
   double pulse_length_m = 0.0;    // c tau / 2, extent of a pulse in range; tau is its duration
   double land_gamma = 0.0;        // sigma0 / sine of the grazing angle, of land without culture
@@ -53,9 +54,9 @@ class Receivers {
   Receiver receiver_;  // without the constants that depend on the range
 };
 
-// Illuminated ground area [m^2]: the smaller of the pulse-limited R theta_az (c tau / 2) / cos psi and the beam-limited
-// R^2 theta_az theta_el / sin psi. Grazing angle psi in [0, 90] degrees.
-double illuminated_area_m2(const Receiver& receiver, double slant_range_m, double sin_grazing);
+// Length over level ground that returns at one time [m]: the smaller of the pulse-limited (c tau / 2) / cos psi and the
+// beam-limited R theta_el / sin psi. Grazing angle psi in [0, 90] degrees.
+double illuminated_length_m(const Receiver& receiver, double slant_range_m, double sin_grazing);
 
 // Power [1/m^2] of a target before sensitivity time control: sigma G^2 / R^4. sigma is the cross section, G^2 the
 // two-way gain, R the slant range.
@@ -77,23 +78,33 @@ double beam_integral(radar::BeamPattern pattern, double beamwidth_rad, double an
 // Two-way gain at an azimuth off the beam's centre: Gaussian for every pattern.
 double azimuth_gain(double beamwidth_rad, double offset_rad);
 
+// Integral of azimuth_gain() over all azimuths [rad]: 0.753 beamwidths. Ground returns as if the gain were 1 over this
+// width. Source: Ulaby, Moore, Fung, "Microwave Remote Sensing" II, 7-2: illuminated area of a beam.
+double azimuth_cell_rad(double beamwidth_rad);
+
 // Power relative to full scale after sensitivity time control. `power` is a result of returned_power().
 double received(const Receiver& receiver, double power, double slant_range_m);
 
 // Exponent of the two-way Gaussian, 8 ln 2: gain 1/4 (-6 dB two-way) at half a beamwidth from the centre.
 inline constexpr double kTwoWayExponent = 5.545;
 
+// A sample is the mean power over its cell of ranges, of the return that each range of the cell receives: the mean over
+// one pulse. So the ground at the offset u from the middle of the cell has the weight K(u): the convolution of the
+// cell, 1 sample long, with the pulse. pulse_weight() is the integral of K up to an offset. It is 0 far below the cell
+// and 1 far above it. Offsets and the length of the pulse are in samples; a length of 0 is no smear.
+double pulse_weight(double pulse_samples, double offset_samples);
+
 // Pulse smear: weights of the samples that a pulse covers, at the offsets -reach..reach [samples] from its middle. The
-// sum of weights is 1. A pulse shorter than a sample has reach 0.
+// sum of weights is 1. Power is taken as even within each sample.
 struct PulseSmear {
-  static constexpr std::ptrdiff_t kMaxRadius = 32;  // [samples] limits the pulse to 64 samples
+  static constexpr std::ptrdiff_t kMaxRadius = 32;  // [samples] limits the pulse to 63 samples
   std::ptrdiff_t reach = 0;
   std::array<double, 2 * kMaxRadius + 1> weights{};
 };
 PulseSmear make_pulse_smear(double pulse_samples);
 
-// Factor on the power of a point target before the smear. It is the pulse length in samples, in [1, 64], because the
-// smear divides by that length. Ground fills the pulse and needs no factor.
+// Factor on the power of a point target before the smear: the pulse length in samples, at most 63, because the smear
+// divides by that length. Without smear it is 1. Ground fills the pulse and needs no factor.
 double point_smear_gain(double pulse_samples);
 
 }  // namespace yars::model::physics

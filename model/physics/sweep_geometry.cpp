@@ -29,7 +29,7 @@ double point_azimuth_gain(const std::optional<AzimuthInterval>& sharpened_cell, 
   const double within_rad = std::min(interval.right_rad, offset_rad + 0.5 * width_rad) -
                             std::max(interval.left_rad, offset_rad - 0.5 * width_rad);
   const double part = width_rad > 0.0 ? std::clamp(within_rad / width_rad, 0.0, 1.0) : inside ? 1.0 : 0.0;
-  return part * beamwidth_rad / cell_rad;
+  return part * azimuth_cell_rad(beamwidth_rad) / cell_rad;
 }
 
 Displacement displacement(const SweepGeometry& from, const SweepGeometry& to) {

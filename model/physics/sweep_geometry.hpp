@@ -31,7 +31,7 @@ AzimuthInterval point_interval(const std::optional<AzimuthInterval>& sharpened_c
 // Two-way gain in azimuth of a target with its middle at `offset_rad` from the middle of the beam, clockwise positive,
 // and the width `width_rad`. The gain is 0 if the middle is outside point_interval(). In a sharpened cell the gain is
 // instead the fraction of the target's width inside the cell (for width 0: 1 if the middle is inside, else 0), times
-// beamwidth / cell width.
+// azimuth_cell_rad() / cell width.
 double point_azimuth_gain(const std::optional<AzimuthInterval>& sharpened_cell, double beamwidth_rad, double offset_rad,
                           double width_rad = 0.0);
 

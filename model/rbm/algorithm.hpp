@@ -38,10 +38,6 @@ struct RayGround {
   std::vector<double> transmission;  // two-way, of the rain; empty: no rain
 };
 
-// [azimuth beamwidths] Azimuth offset from the sweep, to the left and to the right, of the two side rays that give the
-// cross-track slope. They must lie within the beam, and must be far enough apart to measure the slope over its width.
-inline constexpr double kSideRayBeamwidths = 0.25;
-
 class Algorithm {
  public:
   Algorithm() = default;

@@ -245,7 +245,8 @@ void Beacons::measure(const physics::SweepGeometry& geometry, const terrain::Ter
   const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry.apex, geometry.azimuth);
   physics::sample_distances(geometry_parameters_, earth, geometry, terrain, distance_m_);
   const double spacing_m = geometry.range.metres() / static_cast<double>(power.size());
-  const double pulse_samples = physics::point_smear_gain(receivers_.pulse_length(geometry.range).metres() / spacing_m);
+  // A reply is drawn in one sample at least.
+  const double pulse_samples = std::max(1.0, receivers_.pulse_length(geometry.range).metres() / spacing_m);
   for (const Reply& reply : arrived) {
     const std::size_t middle = physics::nearest_sample(distance_m_, reply.distance_m);
     const double displayed_range_m = geometry_parameters_.slant_range ? reply.slant_range_m : reply.distance_m;

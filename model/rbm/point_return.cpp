@@ -63,7 +63,7 @@ void PointReturn::add(const physics::SweepGeometry& geometry, const physics::Env
                       std::span<const RayGround* const> rays, std::span<float> power) {
   if (receiver_.stc_range_m != geometry.range.metres()) receiver_ = receivers_.at(geometry.range);
   const double spacing_m = geometry.range.metres() / static_cast<double>(points_.size());
-  const double pulse_samples = pulse_smear_ ? receiver_.pulse_length_m / spacing_m : 1.0;
+  const double pulse_samples = pulse_smear_ ? receiver_.pulse_length_m / spacing_m : 0.0;
   if (pulse_samples != smeared_samples_) {
     smeared_samples_ = pulse_samples;
     smear_ = physics::make_pulse_smear(pulse_samples);

@@ -147,7 +147,7 @@ class PointReturn {
   std::span<const double> distance_m_;  // of the samples, of the leftmost ray; about that of all
   double first_ray_rad_ = 0.0;          // azimuth of the leftmost ray from the middle of the beam
   double rays_per_rad_ = 0.0;           // 0: one ray
-  double smeared_samples_ = 0.0;        // pulse length [samples] of smear_; 0: none
+  double smeared_samples_ = -1.0;       // pulse length [samples] of smear_; -1: none
   physics::PulseSmear smear_;
   // Power by sample before the smear, and after it; 0 between the sweeps. All that is not 0 lies in [first_, end_).
   std::vector<double> points_, smeared_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "model/physics/clutter.hpp"
 
@@ -23,14 +24,16 @@ double speckle(physics::NoiseState state, std::uint32_t cell, int looks) {
 
 Reference::Reference(const physics::RadarParameters& parameters)
     : fidelity_(parameters.fidelity),
-      azimuth_beamwidth_deg_(parameters.azimuth_beamwidth_deg),
       receivers_(parameters),
       surface_(parameters),
       rain_(parameters),
       gas_(parameters),
       scene_covers_(parameters, sample_count(parameters)),
       samples_(sample_count(parameters)),
-      distance_m_(samples_.size()) {}
+      bins_(kBinsOfCell * samples_.size()),
+      distance_m_(samples_.size()) {
+  weights_.reserve((2 * samples_.size() + 1) * kBinsOfCell);  // for any range scale
+}
 
 void Reference::use_weather(const physics::RadarParameters& parameters) {
   surface_.use_sea(parameters);
@@ -44,19 +47,13 @@ std::size_t Reference::measure(const physics::SweepGeometry& geometry, const phy
   const physics::Receiver receiver = receivers_.at(geometry.range);
   physics::sample_distances(fidelity_, earth, geometry, terrain, distance_m_);
   const std::size_t pending = read_terrain(geometry, terrain);
-  if (fidelity_.cross_track_slope) read_cross_slopes(geometry, terrain);
-  const physics::GroundWalk walk(geometry, earth, terrain, fidelity_.interpolation);
-  cast_shadows(geometry, earth, walk);
   const double spacing_m = geometry.range.metres() / static_cast<double>(samples_.size());
-  const double pulse_samples = fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   surface_.use_resolution(receiver.pulse_length_m, spacing_m);
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, geometry, i) : 0.0;
-  }
-  if (scene_covers_.enter(geometry, environment.scenes)) add_covers(geometry, receiver, earth, *environment.scenes);
+  walk_ground(geometry, receiver, physics::GroundWalk(geometry, earth, terrain, fidelity_.interpolation));
+  if (scene_covers_.enter(geometry, environment.scenes)) add_covers(geometry, *environment.scenes);
   rain_.enter(geometry);
   if (!rain_.dry()) add_rain(receiver, earth, geometry);
-  smear_pulse(pulse_samples, power);
+  smear_pulse(fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 0.0, power);
   return pending;
 }
 
@@ -83,87 +80,120 @@ std::size_t Reference::read_terrain(const physics::SweepGeometry& geometry, cons
   return pending;
 }
 
-void Reference::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  const double side_rad = kSideRayBeamwidths * azimuth_beamwidth_deg_ * geo::kRadiansPerDegree;
-  const geo::GeodesicRay left(geometry.apex, geometry.azimuth - geo::Angle::radians(side_rad));
-  const geo::GeodesicRay right(geometry.apex, geometry.azimuth + geo::Angle::radians(side_rad));
-  for (Sample& sample : samples_) {
-    if (std::isnan(sample.distance_m)) continue;
-    const geo::Length distance = geo::Length::metres(sample.distance_m);
-    const auto height_m = [&](const geo::GeodesicRay& ray) {
-      return terrain.surface_at(ray.position(distance), fidelity_.interpolation).elevation_m;
+// Ground between the middles of two samples belongs to the nearer middle.
+Reference::Cell Reference::cell_of(std::size_t number) const {
+  const auto known = [&](std::size_t at) { return at < samples_.size() && !std::isnan(distance_m_[at]); };
+  const double middle_m = distance_m_[number];
+  const double half_m = known(number + 1) ? 0.5 * (distance_m_[number + 1] - middle_m)
+                                          : 0.5 * (middle_m - (number > 0 ? distance_m_[number - 1] : 0.0));
+  const double from_m =
+      number > 0 && known(number - 1) ? 0.5 * (distance_m_[number - 1] + middle_m) : std::max(0.0, middle_m - half_m);
+  return {number, from_m, middle_m + half_m, 1.0};
+}
+
+// All ground raises the horizon, also between samples and outside the beam. A void neither raises the horizon nor
+// returns power. Where a cell is reduced to fewer posts, the highest original posts cast the shadow (peak_m). The means
+// of the original posts determine the slant range (height_m).
+void Reference::walk_ground(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                            const physics::GroundWalk& walk) {
+  constexpr double kStepsOfCell = 8.0;  // least number of steps of the walk in a cell
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const physics::EffectiveEarth& earth = walk.earth();
+  const double altitude_m = geometry.altitude.metres();
+  std::fill(bins_.begin(), bins_.end(), 0.0);
+  // The ground below the aircraft is seen straight downwards.
+  Front front{0.0, walk.below().elevation_m, kNone, kNone};
+  if (std::isnan(front.height_m)) front.tangent = front.height_m;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    Sample& sample = samples_[i];
+    if (std::isnan(sample.distance_m)) {
+      sample.horizon = kNone;
+      continue;
+    }
+    Cell cell = cell_of(i);
+    const double height_m = std::isnan(sample.height_m) ? 0.0 : sample.height_m;
+    cell.gas = gas_.two_way_transmission(earth, altitude_m, sample.distance_m, height_m);
+    const auto step = [&](const physics::GroundWalk::Point& point) {
+      Front next{point.distance_m, point.surface.elevation_m, std::numeric_limits<double>::quiet_NaN(), front.horizon};
+      if (!std::isnan(point.surface.peak_m)) {
+        next.tangent = earth.tangent(altitude_m, point.distance_m, point.surface.peak_m);
+        next.horizon = std::max(front.horizon, next.tangent);
+        if (point.distance_m > cell.from_m) add_ground(geometry, receiver, earth, cell, front, next, point);
+      }
+      if (point.distance_m == sample.distance_m && !std::isnan(sample.peak_m))
+        sample.lit = next.tangent > front.horizon && !std::isnan(sample.height_m);
+      front = next;
     };
-    const double rise_m = height_m(right) - height_m(left);
-    sample.cross_slope = std::isnan(rise_m) ? 0.0 : rise_m / (2.0 * side_rad * sample.distance_m);
+    const double step_m = (cell.to_m - cell.from_m) / kStepsOfCell;
+    walk.visit(front.distance_m, cell.from_m, step_m, step);
+    walk.visit(cell.from_m, sample.distance_m, step_m, step);
+    sample.horizon = front.horizon;
+    walk.visit(sample.distance_m, cell.to_m, step_m, step);
   }
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    for (std::size_t bin = 0; bin < kBinsOfCell; ++bin) samples_[i].power += bins_[i * kBinsOfCell + bin] / kBins;
 }
 
-void Reference::cast_shadows(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
-                             const physics::GroundWalk& walk) {
-  // All ground raises the horizon, also between samples and outside the beam. A void neither raises the horizon nor
-  // returns power. Where a cell is reduced to fewer posts, the highest original posts cast the shadow (peak_m). The
-  // means of the original posts determine the power (height_m).
-  double horizon = -std::numeric_limits<double>::infinity();
-  double previous_m = 0.0;
-  for (Sample& sample : samples_) {
-    if (!std::isnan(sample.distance_m)) {
-      horizon = std::max(horizon, walk.highest_tangent(previous_m, sample.distance_m));
-      previous_m = sample.distance_m;
-    }
-    if (!std::isnan(sample.peak_m)) {
-      const double tangent = earth.sight(geometry.altitude.metres(), sample.distance_m, sample.peak_m).tangent;
-      sample.lit = tangent > horizon && !std::isnan(sample.height_m);
-      horizon = std::max(horizon, tangent);
-    }
-    sample.horizon = horizon;
-  }
-}
-
-double Reference::along_slope(std::size_t index) const {
-  // Central difference; beside a void and at the ends of the sweep, the one-sided difference.
-  const bool near_known = index > 0 && !std::isnan(samples_[index - 1].height_m);
-  const bool far_known = index + 1 < samples_.size() && !std::isnan(samples_[index + 1].height_m);
-  const Sample& near = samples_[near_known ? index - 1 : index];
-  const Sample& far = samples_[far_known ? index + 1 : index];
-  const double run_m = far.distance_m - near.distance_m;
-  return run_m > 0.0 ? (far.height_m - near.height_m) / run_m : 0.0;
-}
-
-double Reference::cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
-                             const physics::SweepGeometry& geometry, std::size_t index) const {
-  const Sample& sample = samples_[index];
-  const physics::Sight sight = earth.sight(geometry.altitude.metres(), sample.distance_m, sample.height_m);
-  // Sine of the local grazing angle: the cosine of the angle between the ground's normal and the line to the radar.
-  const double slope = along_slope(index);
-  const double normal_length = std::sqrt(1.0 + slope * slope + sample.cross_slope * sample.cross_slope);
-  const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal_length, 0.0, 1.0);
-  const double cross_section_m2 =
-      surface_.cross_section_m2(receiver, {sample.position, sample.azimuth, sight.slant_range_m, sin_local,
-                                           sight.sin_grazing, sample.water, sample.material});
+// Adds the return of the ground from one position of the walk to the next, as far as it is above the horizon. Land of
+// the reflectivity gamma has the cross section gamma times its area normal to the ray: r theta_az times r times the
+// angle of elevation over which it is seen. Sea has sigma0 times the area of its level surface. Texture and streets are
+// those of the sample's middle, because texture belongs to a resolution cell.
+void Reference::add_ground(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                           const physics::EffectiveEarth& earth, const Cell& cell, const Front& from, const Front& to,
+                           const physics::GroundWalk::Point& point) {
+  if (std::isnan(from.tangent) || std::isnan(to.height_m) || !(to.tangent > from.horizon)) return;
+  const double hidden_rad = std::atan(from.horizon), near_rad = std::atan(from.tangent),
+               far_rad = std::atan(to.tangent);
+  const double seen_rad = far_rad - hidden_rad;
+  if (!(seen_rad > 0.0)) return;                             // less than the rounding of an angle
+  const double seen_part = seen_rad / (far_rad - near_rad);  // of the way between the positions
+  const double middle = 1.0 - 0.5 * seen_part;
+  const double distance_m = from.distance_m + middle * (to.distance_m - from.distance_m);
+  const double near_m = std::isnan(from.height_m) ? to.height_m : from.height_m;
+  const physics::Sight sight =
+      earth.sight(geometry.altitude.metres(), distance_m, near_m + middle * (to.height_m - near_m));
+  const double range_m = sight.slant_range_m;
+  const Sample& sample = samples_[cell.number];
+  const physics::SurfaceReturn::Reflectivity ground =
+      surface_.at({sample.position, sample.azimuth, sight.sin_grazing, point.surface.water, point.surface.material});
+  const double normal_m2 = range_m * range_m * receiver.azimuth_cell_rad * seen_rad;
+  const double sea_m2 =
+      ground.sigma0 * range_m * receiver.azimuth_cell_rad * seen_part * (to.distance_m - from.distance_m);
+  // The ground of this many cells returns at one time.
+  const double cells = physics::illuminated_length_m(receiver, range_m, std::clamp(sight.sin_grazing, 0.0, 1.0)) /
+                       (cell.to_m - cell.from_m);
   const double gain = physics::two_way_gain(fidelity_.beam, receiver.elevation_beamwidth_rad,
                                             geometry.elevation.radians(), sight.elevation_rad);
-  const double loss = gas_.two_way_transmission(earth, geometry.altitude.metres(), sample.distance_m, sample.height_m);
-  return physics::received(receiver, physics::returned_power(cross_section_m2, loss * gain, sight.slant_range_m),
-                           sight.slant_range_m);
+  const double power_per_m2 =
+      physics::received(receiver, physics::returned_power(cells, cell.gas * gain, range_m), range_m);
+  const double bin = kBins * (distance_m - cell.from_m) / (cell.to_m - cell.from_m);
+  const auto number = static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0));
+  bins_[cell.number * kBinsOfCell + number] += kBins * power_per_m2 * (ground.gamma * normal_m2 + sea_m2);
+  samples_[cell.number].power_per_gamma += power_per_m2 * normal_m2;
 }
 
-void Reference::add_covers(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-                           const physics::EffectiveEarth& earth, const scene::SceneView& scenes) {
+// Scales the bins of each sample to its power with the covers.
+void Reference::add_covers(const physics::SweepGeometry& geometry, const scene::SceneView& scenes) {
   SceneCovers::Ground& ground = scene_covers_.ground();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     ground.distance_m[i] = samples_[i].distance_m;
-    ground.height_m[i] = samples_[i].height_m;
-    ground.cross_slope[i] = samples_[i].cross_slope;
     ground.power[i] = samples_[i].power;
+    ground.power_per_gamma[i] = samples_[i].power_per_gamma;
   }
-  scene_covers_.apply(geometry, receiver, earth, scenes);
-  for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].power = ground.power[i];
+  scene_covers_.apply(geometry, scenes);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (ground.power[i] == samples_[i].power) continue;
+    for (std::size_t bin = 0; bin < kBinsOfCell; ++bin)
+      bins_[i * kBinsOfCell + bin] *= ground.power[i] / samples_[i].power;
+    samples_[i].power = ground.power[i];
+  }
 }
 
 void Reference::add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
                          const physics::SweepGeometry& geometry) {
   const double altitude_m = geometry.altitude.metres();
-  for (Sample& sample : samples_) {
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    Sample& sample = samples_[i];
     if (std::isnan(sample.distance_m)) continue;
     // Over a void the ray ends at sea level.
     const double height_m = std::isnan(sample.height_m) ? 0.0 : sample.height_m;
@@ -171,23 +201,33 @@ void Reference::add_rain(const physics::Receiver& receiver, const physics::Effec
     const double rain = rain_.power(receiver, earth, geometry, sample.distance_m, std::atan(sample.horizon));
     const double loss = rain_.two_way_transmission(earth, altitude_m, sample.distance_m, height_m, slant_range_m);
     const double gas = gas_.two_way_transmission(earth, altitude_m, sample.distance_m, height_m);
+    const double echo = gas * physics::received(receiver, rain, slant_range_m);
     sample.transmission = loss;
-    sample.power = (sample.power + gas * physics::received(receiver, rain, slant_range_m)) * loss;
+    sample.power = (sample.power + echo) * loss;
+    for (std::size_t bin = 0; bin < kBinsOfCell; ++bin) {
+      double& power = bins_[i * kBinsOfCell + bin];
+      power = (power + echo) * loss;
+    }
   }
 }
 
-void Reference::smear_pulse(double pulse_samples, std::span<float> power) const {
-  const physics::PulseSmear smear = physics::make_pulse_smear(pulse_samples);
+void Reference::smear_pulse(double pulse_samples, std::span<float> power) {
   const auto count = static_cast<std::ptrdiff_t>(samples_.size());
-  const std::ptrdiff_t reach = smear.reach;
+  const auto reach = std::min(static_cast<std::ptrdiff_t>(std::ceil(0.5 * pulse_samples)), count);
+  // Weights of the bins from `reach` samples before a sample to `reach` samples after it.
+  weights_.resize(static_cast<std::size_t>(2 * reach + 1) * kBinsOfCell);
+  const auto up_to = [&](std::size_t bin) {
+    return physics::pulse_weight(pulse_samples, static_cast<double>(bin) / kBins - static_cast<double>(reach) - 0.5);
+  };
+  for (std::size_t bin = 0; bin < weights_.size(); ++bin) weights_[bin] = up_to(bin + 1) - up_to(bin);
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    double sum = 0.0;
-    for (std::ptrdiff_t neighbour = std::max<std::ptrdiff_t>(i - reach, 0); neighbour <= std::min(i + reach, count - 1);
-         ++neighbour) {
-      sum += smear.weights[static_cast<std::size_t>(neighbour - i + reach)] *
-             samples_[static_cast<std::size_t>(neighbour)].power;
-    }
-    power[static_cast<std::size_t>(i)] = static_cast<float>(sum);
+    const auto first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(i - reach, 0));
+    const auto end = static_cast<std::size_t>(std::min(i + reach + 1, count));
+    const auto skipped = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(first) - (i - reach));
+    power[static_cast<std::size_t>(i)] = static_cast<float>(
+        std::inner_product(bins_.begin() + static_cast<std::ptrdiff_t>(first * kBinsOfCell),
+                           bins_.begin() + static_cast<std::ptrdiff_t>(end * kBinsOfCell),
+                           weights_.begin() + static_cast<std::ptrdiff_t>(skipped * kBinsOfCell), 0.0));
   }
 }
 

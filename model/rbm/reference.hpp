@@ -1,7 +1,7 @@
-// Reference algorithm of the real beam map: double precision, exact geodesic and earth curvature at every sample.
-// Tests compare the faster algorithms with this one. `yars trade` measures errors against it.
-// Accuracy: double precision; power is returned as float (6e-8 relative).
-// Source: docs/radar_maths.md.
+// Reference algorithm of the real beam map: double precision, a walk over all ground of the ray (physics::GroundWalk)
+// on the exact geodesic, whatever the number of samples. Tests compare the faster algorithms with this one. `yars
+// trade` measures errors against it. tests/truth compares it with numbers from outside. Accuracy: double precision;
+// power is returned as float (6e-8 relative). Source: docs/radar_maths.md.
 #pragma once
 
 #include <vector>
@@ -39,36 +39,52 @@ class Reference : public Algorithm {
     double peak_m = 0.0;        // [m MSL] ground that casts the shadow: terrain::Surface::peak_m; NaN: void
     double water = 0.0;         // fraction of water [0, 1]
     std::uint8_t material = 0;  // surface material code
-    double cross_slope = 0.0;   // slope across the sweep, positive if it rises to the right
     double horizon = 0.0;       // maximum tangent of elevation angle of all ground up to and including this sample
     bool lit = false;
-    double transmission = 1.0;  // two-way, of the rain
-    double power = 0.0;         // full scale = 1, before the pulse smear
+    double transmission = 1.0;     // two-way, of the rain
+    double power = 0.0;            // of all ground of the sample's cell, full scale = 1, before the pulse smear
+    double power_per_gamma = 0.0;  // what it would be if all of it were land with gamma 1
   };
   std::span<const Sample> samples() const { return samples_; }
 
  private:
+  // Bins of a cell. Within a bin power is taken as even, which bounds the error of the pulse smear.
+  static constexpr std::size_t kBinsOfCell = 32;
+  static constexpr double kBins = kBinsOfCell;
+  // Ground of the walk up to one of its positions.
+  struct Front {
+    double distance_m = 0.0;
+    double height_m = 0.0;  // as Sample::height_m
+    double tangent = 0.0;   // of the ground at the position; NaN: void
+    double horizon = 0.0;   // maximum tangent up to the position
+  };
+  // What is equal for all ground of a sample's cell.
+  struct Cell {
+    std::size_t number;
+    double from_m, to_m;  // over ground
+    double gas;           // two-way transmission
+  };
   std::size_t read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
-  void read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
-  void cast_shadows(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
-                    const physics::GroundWalk& walk);
-  double along_slope(std::size_t index) const;
-  double cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
-                    const physics::SweepGeometry& geometry, std::size_t index) const;
-  void add_covers(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-                  const physics::EffectiveEarth& earth, const scene::SceneView& scenes);
+  void walk_ground(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                   const physics::GroundWalk& walk);
+  Cell cell_of(std::size_t number) const;
+  void add_ground(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                  const physics::EffectiveEarth& earth, const Cell& cell, const Front& from, const Front& to,
+                  const physics::GroundWalk::Point& point);
+  void add_covers(const physics::SweepGeometry& geometry, const scene::SceneView& scenes);
   void add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
                 const physics::SweepGeometry& geometry);
-  void smear_pulse(double pulse_samples, std::span<float> power) const;
+  void smear_pulse(double pulse_samples, std::span<float> power);
 
   radar::Fidelity fidelity_;
-  double azimuth_beamwidth_deg_;
   physics::Receivers receivers_;
   physics::SurfaceReturn surface_;
   physics::RainPath rain_;
   physics::GasPath gas_;
   SceneCovers scene_covers_;
   std::vector<Sample> samples_;
+  std::vector<double> bins_;     // power, kBinsOfCell of each sample, in the unit of Sample::power
+  std::vector<double> weights_;  // of the pulse smear
   std::vector<double> distance_m_;
 };
 

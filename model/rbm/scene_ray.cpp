@@ -42,15 +42,6 @@ bool SceneRay::crosses(const scene::Scatterers& scene) const {
 }
 
 namespace {
-// Slope along the sweep: central difference; beside a void and at the ends of the sweep, the one-sided difference.
-double along_slope(const SceneCovers::Ground& ground, std::size_t index) {
-  const auto known = [&](std::size_t at) { return !std::isnan(ground.height_m[at]); };
-  const std::size_t near = index > 0 && known(index - 1) ? index - 1 : index;
-  const std::size_t far = index + 1 < ground.height_m.size() && known(index + 1) ? index + 1 : index;
-  const double run_m = ground.distance_m[far] - ground.distance_m[near];
-  return run_m > 0.0 ? (ground.height_m[far] - ground.height_m[near]) / run_m : 0.0;
-}
-
 // Positions along a ray, in metres east and north of a scene's origin. They are computed on a sphere. The error is some
 // metres for scenes of some tens of kilometres.
 class RayOverPlane {
@@ -83,7 +74,7 @@ class RayOverPlane {
 }  // namespace
 
 SceneCovers::SceneCovers(const physics::RadarParameters& parameters, std::size_t samples)
-    : beam_(parameters.beam), gas_(parameters), surface_(parameters), ground_(samples) {}
+    : surface_(parameters), ground_(samples) {}
 
 double SceneCovers::spacing_m(const physics::SweepGeometry& geometry) const {
   return geometry.range.metres() / static_cast<double>(ground_.power.size());
@@ -103,18 +94,16 @@ bool SceneCovers::enter(const physics::SweepGeometry& geometry, const scene::Sce
                      [&](const scene::Scatterers* scene) { return lies_under(ray, geometry, *scene); });
 }
 
-void SceneCovers::apply(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-                        const physics::EffectiveEarth& earth, const scene::SceneView& scenes) {
+void SceneCovers::apply(const physics::SweepGeometry& geometry, const scene::SceneView& scenes) {
   const SceneRay ray(geometry);
   for (const scene::Scatterers* scene : scenes.scatterers())
-    if (lies_under(ray, geometry, *scene)) cover(geometry, receiver, earth, *scene);
+    if (lies_under(ray, geometry, *scene)) cover(geometry, *scene);
 }
 
 // Mixes the return of covers (flat faces on the ground, summed over squares of a grid) into the power of lit samples.
 // The new power of a sample is the weighted mean of its old power and the power that it would have with the cover's
 // gamma. The weight of the second power is the covered fraction of the square that contains the sample.
-void SceneCovers::cover(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-                        const physics::EffectiveEarth& earth, const scene::Scatterers& scene) {
+void SceneCovers::cover(const physics::SweepGeometry& geometry, const scene::Scatterers& scene) {
   const std::size_t number = scene.level_for(spacing_m(geometry));
   const scene::ScattererLevel& level = scene.levels[number];
   const double side_m = scene::kScattererSides_m[number];
@@ -134,26 +123,8 @@ void SceneCovers::cover(const physics::SweepGeometry& geometry, const physics::R
       sum_m2 += static_cast<double>(facing.up_m2) * surface_.gamma(facing.material);
     }
     const auto fraction = static_cast<double>(found->second.share);
-    ground_.power[i] += fraction * (covered_power(geometry, receiver, earth, i, sum_m2 / area_m2) - ground_.power[i]);
+    ground_.power[i] += fraction * (sum_m2 / area_m2 * ground_.power_per_gamma[i] - ground_.power[i]);
   }
-}
-
-// Power that a sample would have with reflectivity `gamma` and the slopes of the ground.
-double SceneCovers::covered_power(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-                                  const physics::EffectiveEarth& earth, std::size_t sample, double gamma) const {
-  const physics::Sight sight =
-      earth.sight(geometry.altitude.metres(), ground_.distance_m[sample], ground_.height_m[sample]);
-  const double slope = along_slope(ground_, sample);
-  const double cross_slope = ground_.cross_slope[sample];
-  const double normal = std::sqrt(1.0 + slope * slope + cross_slope * cross_slope);
-  const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal, 0.0, 1.0);
-  const double sigma_m2 = gamma * sin_local * physics::illuminated_area_m2(receiver, sight.slant_range_m, sin_local);
-  const double gain =
-      physics::two_way_gain(beam_, receiver.elevation_beamwidth_rad, geometry.elevation.radians(), sight.elevation_rad);
-  const double loss = gas_.two_way_transmission(earth, geometry.altitude.metres(), ground_.distance_m[sample],
-                                                ground_.height_m[sample]);
-  return physics::received(receiver, physics::returned_power(sigma_m2, loss * gain, sight.slant_range_m),
-                           sight.slant_range_m);
 }
 
 }  // namespace yars::model::rbm

@@ -1,6 +1,6 @@
 // Polygonal scenes in a ray of the real beam map: the ray in a scene's coordinates, which scenes it meets, and covers:
 // flat faces on the ground, such as runways. They replace the ground's return in proportion to the area they cover.
-// Inputs: geometry of the ray; receiver, scenes, the ray's ground with its power.
+// Inputs: geometry of the ray; scenes; the ray's ground with its power.
 // Outputs: vectors in a scene's frame (east-north-up [m], from earth-centred, earth-fixed); whether the scene lies
 //   within the range, and under the ray; the power of the samples before the pulse smear, changed in place.
 // Accuracy: double precision. A geodesic differs by less than 1 km from the vertical plane through its start. Positions
@@ -14,9 +14,6 @@
 
 #include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/modes.hpp"
-#include "model/physics/atmosphere.hpp"
-#include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/scene/placement/scene_view.hpp"
@@ -49,31 +46,23 @@ class SceneCovers {
 
   // Samples of the ray, near to far.
   struct Ground {
-    explicit Ground(std::size_t samples)
-        : distance_m(samples), height_m(samples), cross_slope(samples), power(samples) {}
-    std::vector<double> distance_m;   // over ground, ascending; NaN: slant range too short to meet the ground
-    std::vector<double> height_m;     // [m MSL]; NaN: void
-    std::vector<double> cross_slope;  // slope across the ray
-    std::vector<double> power;        // before the pulse smear
+    explicit Ground(std::size_t samples) : distance_m(samples), power(samples), power_per_gamma(samples) {}
+    std::vector<double> distance_m;       // over ground, ascending; NaN: slant range too short to meet the ground
+    std::vector<double> power;            // before the pulse smear
+    std::vector<double> power_per_gamma;  // what the power would be if the ground were land with gamma 1
   };
 
   // Returns true if covers may lie under the ray; the caller then fills ground() and calls apply().
   bool enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes);
   Ground& ground() { return ground_; }
   // Mixes the covers into ground().power.
-  void apply(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-             const physics::EffectiveEarth& earth, const scene::SceneView& scenes);
+  void apply(const physics::SweepGeometry& geometry, const scene::SceneView& scenes);
 
  private:
   double spacing_m(const physics::SweepGeometry& geometry) const;  // range between samples
   bool lies_under(const SceneRay& ray, const physics::SweepGeometry& geometry, const scene::Scatterers& scene) const;
-  void cover(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-             const physics::EffectiveEarth& earth, const scene::Scatterers& scene);
-  double covered_power(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-                       const physics::EffectiveEarth& earth, std::size_t sample, double gamma) const;
+  void cover(const physics::SweepGeometry& geometry, const scene::Scatterers& scene);
 
-  radar::BeamPattern beam_;
-  physics::GasPath gas_;
   physics::SceneSurface surface_;
   Ground ground_;
 };

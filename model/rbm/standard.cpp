@@ -28,7 +28,6 @@ float max_straight_m(std::size_t samples) {
 
 Standard::Standard(const physics::RadarParameters& parameters)
     : fidelity_(parameters.fidelity),
-      azimuth_beamwidth_deg_(parameters.azimuth_beamwidth_deg),
       receivers_(parameters),
       ground_(parameters, sample_count(parameters)),
       rain_(parameters, sample_count(parameters)),
@@ -40,7 +39,8 @@ Standard::Standard(const physics::RadarParameters& parameters)
       distance_m_(count_),
       distance_(count_, 0.0F),
       one_step_inverse_(count_, 0.0F),
-      two_step_inverse_(count_, 0.0F),
+      midway_weight_(count_, 0.0F),
+      cell_inverse_(count_, 0.0F),
       positions_(count_),
       ray_crests_(count_),
       elevation_(count_, kVoid),
@@ -49,16 +49,12 @@ Standard::Standard(const physics::RadarParameters& parameters)
       near_(count_, kVoid),
       near_back_(count_, 0.0F),
       crest_(count_, simd::kNoHorizon),
-      cross_slope_(count_, 0.0F),
-      side_positions_((count_ + kSideStep - 1) / kSideStep),
-      side_distance_(side_positions_.count, 0.0F),
-      left_side_(side_positions_.count, 0.0F),
-      right_side_(side_positions_.count, 0.0F),
       tangent_(count_, simd::kNoHorizon),
       near_tangent_(count_, simd::kNoHorizon),
       before_(count_, simd::kNoHorizon),
       horizon_(count_, simd::kNoHorizon),
       power_(count_, 0.0F),
+      power_per_gamma_(count_, 0.0F),
       variate_(count_, 1.0F),
       cell_(count_ + terrain::kRunSlack) {}
 
@@ -73,22 +69,21 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
   const physics::Receiver& receiver = receiver_at(geometry.range);
   update_distances(geometry, earth, terrain);
-  if (fidelity_.cross_track_slope) read_cross_slopes(geometry, terrain);
   const std::size_t pending = read_terrain(geometry, terrain);
 
   const simd::SweepConstants constants = sweep_constants(geometry, earth, receiver);
   const double spacing_m = geometry.range.metres() / static_cast<double>(count_);
-  const double pulse_samples = fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
+  const double pulse_samples = fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 0.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
   const terrain::PositionRun positions = positions_.run();
   simd::SweepInputs inputs{distance_.data(), elevation_.data(),
                            // Where a cell is reduced to fewer posts, the highest original posts cast the shadow.
                            has_peaks_ ? peak_.data() : nullptr, near_.data(), near_back_.data(), nullptr,
-                           fidelity_.cross_track_slope ? cross_slope_.data() : nullptr, one_step_inverse_.data(),
-                           two_step_inverse_.data(), gas_loss(geometry),
+                           midway_weight_.data(), cell_inverse_.data(), gas_loss(geometry),
                            ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
-  const simd::SweepOutputs outputs{near_tangent_.data(), tangent_.data(), before_.data(), horizon_.data(),
-                                   power_.data()};
+  const bool covers = scene_covers_.enter(geometry, environment.scenes);
+  const simd::SweepOutputs outputs{near_tangent_.data(), tangent_.data(), before_.data(),
+                                   horizon_.data(),      power_.data(),   covers ? power_per_gamma_.data() : nullptr};
   simd::profile(count_, constants, inputs, outputs);
   has_crests_ =
       ray_crests_.find(terrain, {geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots}, positions_,
@@ -98,7 +93,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   simd::sweep(count_, constants, fidelity_.beam, inputs, outputs);
   // sweep() may have written after the last sample. The smear reads those entries, so they are set to 0.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
-  if (scene_covers_.enter(geometry, environment.scenes)) add_covers(geometry, earth, receiver, *environment.scenes);
+  if (covers) add_covers(geometry, *environment.scenes);
   rain_.enter(geometry);
   if (!rain_.dry()) add_rain(geometry, earth, receiver);
 
@@ -126,17 +121,14 @@ physics::GasSamples::Coefficients Standard::gas_loss(const physics::SweepGeometr
   return gas_samples_.coefficients();
 }
 
-void Standard::add_covers(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
-                          const physics::Receiver& receiver, const scene::SceneView& scenes) {
+void Standard::add_covers(const physics::SweepGeometry& geometry, const scene::SceneView& scenes) {
   SceneCovers::Ground& ground = scene_covers_.ground();
-  const bool across = fidelity_.cross_track_slope;
   for (std::size_t i = 0; i < count_; ++i) {
     ground.distance_m[i] = i < holes_ ? std::numeric_limits<double>::quiet_NaN() : distance_m_[i];
-    ground.height_m[i] = static_cast<double>(elevation_.data()[i]);
-    ground.cross_slope[i] = across ? static_cast<double>(cross_slope_.data()[i]) : 0.0;
     ground.power[i] = static_cast<double>(power_.data()[i]);
+    ground.power_per_gamma[i] = static_cast<double>(power_per_gamma_.data()[i]);
   }
-  scene_covers_.apply(geometry, receiver, earth, scenes);
+  scene_covers_.apply(geometry, scenes);
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
 }
 
@@ -178,7 +170,7 @@ const physics::Receiver& Standard::receiver_at(geo::Length range) {
   return receiver_;
 }
 
-// Updates the ground distances of the samples and the reciprocals of their spacings. At equal steps of ground range the
+// Updates the ground distances of the samples and what depends on them alone. At equal steps of ground range the
 // distances change with the selected range only. At equal steps of slant range they are recomputed for each sweep.
 void Standard::update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                                 const terrain::TerrainView& terrain) {
@@ -194,7 +186,19 @@ void Standard::update_distances(const physics::SweepGeometry& geometry, const ph
   const auto inverse = [](double step_m) { return step_m > 0.0 ? static_cast<float>(1.0 / step_m) : 0.0F; };
   for (std::size_t i = 0; i + 1 < count_; ++i) {
     one_step_inverse_.data()[i] = inverse(distance_m_[i + 1] - distance_m_[i]);
-    if (i > 0) two_step_inverse_.data()[i] = inverse(distance_m_[i + 1] - distance_m_[i - 1]);
+    midway_weight_.data()[i + 1] = static_cast<float>(distance_m_[i] / (distance_m_[i] + distance_m_[i + 1]));
+  }
+  // Over level ground at the height h below the aircraft the tangent rises by h (far - near) / (near far) from one edge
+  // of a cell to the other. In the middle d it rises by h / d^2 per metre. The first cell and the last one have one
+  // edge.
+  for (std::size_t i = holes_; i < count_; ++i) {
+    const double middle_m = distance_m_[i];
+    const bool has_near = i > holes_, has_far = i + 1 < count_;
+    const double near_m = has_near ? 0.5 * (distance_m_[i - 1] + middle_m) : middle_m;
+    const double far_m = has_far ? 0.5 * (middle_m + distance_m_[i + 1]) : middle_m;
+    const double halves = has_near == has_far ? 1.0 : 2.0;
+    cell_inverse_.data()[i] =
+        static_cast<float>(near_m * far_m / (middle_m * middle_m)) * inverse(halves * (far_m - near_m));
   }
 }
 
@@ -217,34 +221,6 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const
   return pending;
 }
 
-// Slope across the sweep, from two side rays. It is computed at every kSideStep-th sample and interpolated between
-// them.
-void Standard::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  const double side_rad = kSideRayBeamwidths * azimuth_beamwidth_deg_ * geo::kRadiansPerDegree;
-  const std::size_t sides = side_positions_.count;
-  for (std::size_t k = 0; k < sides; ++k) side_distance_.data()[k] = distance_.data()[k * kSideStep];
-  const auto read = [&](double offset_rad, Padded& out) {
-    sampler_.sample(geometry.apex, geometry.azimuth + geo::Angle::radians(offset_rad), geometry.range,
-                    fidelity_.geodesic_knots, side_distance_.data(), side_positions_);
-    terrain.surfaces(side_positions_.run(), fidelity_.interpolation, {out.first(sides), water_.first(sides), {}, {}});
-  };
-  read(-side_rad, left_side_);
-  read(side_rad, right_side_);
-  float* const slope = right_side_.data();
-  for (std::size_t k = 0; k < sides; ++k) {
-    const float rise_m = right_side_.data()[k] - left_side_.data()[k];
-    const float run_m = static_cast<float>(2.0 * side_rad) * side_distance_.data()[k];
-    slope[k] = run_m > 0.0F && rise_m == rise_m ? rise_m / run_m : 0.0F;
-  }
-  slope[sides] = slope[sides - 1];
-  constexpr float kStep = 1.0F / static_cast<float>(kSideStep);
-  for (std::size_t k = 0; k < sides; ++k) {
-    const float rise = kStep * (slope[k + 1] - slope[k]);
-    float* const between = cross_slope_.data() + k * kSideStep;
-    for (std::size_t i = 0; i < kSideStep; ++i) between[i] = slope[k] + static_cast<float>(i) * rise;
-  }
-}
-
 simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geometry,
                                                const physics::EffectiveEarth& earth,
                                                const physics::Receiver& receiver) const {
@@ -258,7 +234,7 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   c.land_gamma = static_cast<float>(receiver.land_gamma);
   c.pulse_inverse = static_cast<float>(1.0 / receiver.pulse_length_m);
   c.beam_inverse = static_cast<float>(1.0 / beam_rad);
-  c.scale = static_cast<float>(receiver.azimuth_beamwidth_rad / (receiver.full_scale * range_m * range_m * range_m));
+  c.scale = static_cast<float>(receiver.azimuth_cell_rad / (receiver.full_scale * range_m * range_m * range_m));
   c.range_inverse = static_cast<float>(1.0 / range_m);
   c.range_power = static_cast<float>(receiver.stc_exponent - 3.0);
   c.sin_elevation = static_cast<float>(std::sin(elevation_rad));

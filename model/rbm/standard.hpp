@@ -50,18 +50,14 @@ class Standard : public Algorithm {
     memory::CacheAlignedVector<float> values;
   };
 
-  static constexpr std::size_t kSideStep = 8;  // [samples] between samples of the side rays
-
   void update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const terrain::TerrainView& terrain);
   std::size_t read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
   void add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                 const physics::Receiver& receiver);
-  void add_covers(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
-                  const physics::Receiver& receiver, const scene::SceneView& scenes);
+  void add_covers(const physics::SweepGeometry& geometry, const scene::SceneView& scenes);
   bool is_straight(std::size_t i, const float* peak_m) const;
   physics::GasSamples::Coefficients gas_loss(const physics::SweepGeometry& geometry);
-  void read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
   simd::SweepConstants sweep_constants(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                                        const physics::Receiver& receiver) const;
 
@@ -69,7 +65,6 @@ class Standard : public Algorithm {
   void use_cells(float cells_per_sample);
 
   radar::Fidelity fidelity_;
-  double azimuth_beamwidth_deg_;
   physics::Receivers receivers_;
   physics::Ground ground_;
   physics::RainSamples rain_;
@@ -83,20 +78,18 @@ class Standard : public Algorithm {
   bool has_crests_ = false;  // crest_ is that of the sweep
   bool has_peaks_ = false;   // peak_ is that of the sweep
   double spaced_range_m_ = 0.0;     // [m] range for which distance_m_ was computed; 0: none
-  double smeared_samples_ = 0.0;    // pulse length [samples] of smear_weights_; 0: none
+  double smeared_samples_ = -1.0;   // pulse length [samples] of smear_weights_; -1: none
   std::ptrdiff_t smear_reach_ = 0;  // [samples] smear_weights_ has offsets -smear_reach_ to smear_reach_
   float cells_per_sample_ = 0.0F;   // value for which cell_ was computed; 0: none
   std::array<float, 2 * physics::PulseSmear::kMaxRadius + 1> smear_weights_{};
   std::vector<double> distance_m_;
-  Padded distance_, one_step_inverse_, two_step_inverse_;
+  Padded distance_, one_step_inverse_, midway_weight_, cell_inverse_;
   physics::PositionSampler sampler_;
   physics::PositionArrays positions_;
   RayCrests ray_crests_;
-  Padded elevation_, water_, peak_, near_, near_back_, crest_, cross_slope_;
-  physics::PositionArrays side_positions_;
-  Padded side_distance_, left_side_, right_side_;
+  Padded elevation_, water_, peak_, near_, near_back_, crest_;
   Padded tangent_, near_tangent_, before_, horizon_;
-  Padded power_, variate_;
+  Padded power_, power_per_gamma_, variate_;
   memory::CacheAlignedVector<std::int32_t> cell_;  // resolution cell of each sample
 };
 

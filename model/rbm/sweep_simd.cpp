@@ -59,21 +59,6 @@ HWY_INLINE Group peak_tangent(const SweepConstants& c, const Group& distance, co
   return tangent_of(geometry(c, distance, or_zero(known, peak)), known);
 }
 
-// Slope along the sweep: central difference; beside a void and at the ends of the sweep, the one-sided difference.
-template <class Group>
-HWY_INLINE Group along_slope(const SweepInputs& in, const Group& height, std::size_t i) {
-  const auto near = load<Group>(in.elevation_m + i - 1);
-  const auto far = load<Group>(in.elevation_m + i + 1);
-  const auto both_steps = load<Group>(in.two_step_inverse + i);
-  const auto near_known = is_number(near);
-  const auto far_known = is_number(far);
-  if (all(both(near_known, far_known))) return mul(sub(far, near), both_steps);
-  const auto rise = sub(choose(far_known, far, height), choose(near_known, near, height));
-  const auto to_far = load<Group>(in.one_step_inverse + i);
-  const auto to_near = load<Group>(in.one_step_inverse + i - 1);
-  return mul(rise, choose(near_known, choose(far_known, both_steps, to_near), to_far));
-}
-
 template <class Group>
 HWY_INLINE Group inverse_root(const Group& value) {
   return each([](Floats x) { return polynomials::inverse_root(Tag(), x); }, value);
@@ -116,44 +101,46 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
   return max(by_pulse, mul(by_beam, range_inverse()));
 }
 
-// Power of a group with at least one lit sample, with sensitivity time control of exponent 3. store_power() applies the
-// rest of the exponent.
+// Power of a group of samples with sensitivity time control of exponent 3, and the same of land with gamma 1.
+// store_power() applies the rest of the exponent.
+template <class Group>
+struct Power {
+  Group of_ground, per_gamma;
+};
+
+constexpr float kAlone = -1.0F;  // mark in the place of a rise
+
+// `rise`: increase of the tangent over the visible ground of each cell; 0 where there is none; kAlone for level ground.
 template <class Group, class GroupMask>
-HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
-                           clutter::GroundCache& cache, std::size_t i, const Geometry<Group>& g, const Group& height,
-                           const Group& slant_square, const GroupMask& lit) {
-  const auto zero = constant<Group>(0.0F);
+HWY_INLINE Power<Group> seen_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
+                                   clutter::GroundCache& cache, std::size_t i, const Geometry<Group>& g,
+                                   const Group& height, const Group& slant_square, const Group& rise,
+                                   const GroupMask& seen) {
   const auto one = constant<Group>(1.0F);
   const auto altitude = constant<Group>(c.altitude_m);
   const auto range_inverse = [&] { return inverse_root(slant_square); };
-  // Sine and cosine of the grazing angle, times the slant range.
+  // Sine and cosine of the grazing angle on level ground, times the slant range.
   const auto level_sine = mul_sub(altitude, g.cosine, add(height, g.drop_m));
   const auto level_cosine = mul_add(altitude, g.sine, g.chord_m);
-  // Sine and cosine of the local grazing angle, times two factors: slant range and length of the facet's normal. These
-  // factors cancel in the power.
-  const auto slope = along_slope(in, height, i);
-  const auto sine = max(mul_add(slope, level_cosine, level_sine), zero);
-  auto cosine = abs(neg_mul_add(slope, level_sine, level_cosine));
-  if (in.cross_slope != nullptr) {
-    const auto across = load<Group>(in.cross_slope + i);
-    cosine = sqrt(mul_add(mul(across, across), slant_square, mul(cosine, cosine)));
-  }
   const auto gain = ElevationGain<Group>(c, g.out_m, g.up_m, slant_square).of(beam);
-  const auto scaled_gain = mul(gain.numerator, constant<Group>(c.scale));
-  // Where the sine is 0, the power is 0 and the inverse length may be 0. These lanes divide by 1 instead.
-  const auto returns = both(lit, less(zero, sine));
-  const auto land_denominator = mul(area_inverse(c, sine, cosine, slant_square, range_inverse), gain.denominator);
-  const auto by_land = div(mul(sine, scaled_gain), choose(returns, land_denominator, one));
-  if (in.ground == nullptr) return or_zero(returns, mul(constant<Group>(c.land_gamma), by_land));
-  const auto ground = reflected(*in.ground, cache, i, level_sine, slant_square, lit);
-  const auto land = or_zero(returns, mul(ground.land, by_land));
-  if (!ground.wet) return land;
-  const auto wet = both(lit, less(zero, ground.sea));
-  // The sea is level. Its illuminated length depends on the grazing angle at level ground.
-  const auto inverse = range_inverse();
-  const auto level = mul(area_inverse(c, level_sine, level_cosine, slant_square, [&] { return inverse; }), inverse);
-  const auto sea_denominator = choose(wet, mul(level, gain.denominator), one);
-  return add(land, or_zero(wet, div(mul(ground.sea, scaled_gain), sea_denominator)));
+  // The angle of elevation is the rise times (out / slant range)^2. One factor of the slant range is in the inverse
+  // area.
+  const auto risen = mul(mul(rise, load<Group>(in.cell_inverse + i)), mul(g.out_m, g.out_m));
+  const auto angle = choose(less(rise, constant<Group>(0.0F)), max(level_sine, constant<Group>(0.0F)), risen);
+  const auto inverse =
+      mul(area_inverse(c, level_sine, abs(level_cosine), slant_square, range_inverse), gain.denominator);
+  const auto per_gamma =
+      or_zero(seen, div(mul(mul(angle, gain.numerator), constant<Group>(c.scale)), choose(seen, inverse, one)));
+  if (in.ground == nullptr) return {mul(constant<Group>(c.land_gamma), per_gamma), per_gamma};
+  const auto ground = reflected(*in.ground, cache, i, level_sine, slant_square, seen);
+  const auto land = mul(ground.land, per_gamma);
+  if (!ground.wet) return {land, per_gamma};
+  // The sea is level, so its area is the area normal to the ray, divided by the sine. It does not exceed the cell where
+  // the ground of a coast is steeper.
+  const auto wet = both(seen, less(constant<Group>(0.0F), ground.sea));
+  const auto slant = mul(slant_square, range_inverse());
+  const auto per_normal = div(slant, choose(wet, max(level_sine, angle), one));
+  return {add(land, or_zero(wet, mul(mul(ground.sea, per_gamma), per_normal))), per_gamma};
 }
 
 class SweepPass {
@@ -169,47 +156,81 @@ class SweepPass {
 
   template <class Group>
   HWY_INLINE void measure(std::size_t i) {
-    const auto distance = load<Group>(in_.distance_m + i);
-    const auto elevation = load<Group>(in_.elevation_m + i);
-    const auto known = is_number(elevation);
-    const auto height = or_zero(known, elevation);
-    const auto g = geometry(c_, distance, height);
     const auto tangent = load<Group>(out_.tangent + i);
-    const auto before = raise_horizon<Group>(i);
-    store(before, out_.before + i);
-    const auto lit = less(before, tangent);
-    if (none(lit)) return store(constant<Group>(0.0F), out_.power + i);
-    store_power(i, g, height, lit);
+    const auto [upto, before] = raise_horizon<Group>(i);
+    const auto rise = visible_rise(i, tangent, upto, before);
+    const auto seen = both(less(constant<Group>(0.0F), abs(rise)), less(constant<Group>(kNoHorizon), tangent));
+    if (none(seen)) {
+      store(constant<Group>(0.0F), out_.power + i);
+      if (out_.power_per_gamma != nullptr) store(constant<Group>(0.0F), out_.power_per_gamma + i);
+      return;
+    }
+    const auto elevation = load<Group>(in_.elevation_m + i);
+    const auto height = or_zero(is_number(elevation), elevation);
+    store_power(i, geometry(c_, load<Group>(in_.distance_m + i), height), height, rise, seen);
   }
 
  private:
-  // Raises the horizon to the crests and the ground before the samples. Returns the maximum tangent of all ground
-  // nearer than each sample.
+  // Highest ground between the samples before and at `i`.
   template <class Group>
-  HWY_INLINE Group raise_horizon(std::size_t i) {
-    auto crest = load<Group>(out_.near + i);
-    if (in_.crest != nullptr) crest = max(crest, load<Group>(in_.crest + i));
-    const auto [upto, before] = horizon_.after(max(load<Group>(out_.horizon + i), crest));
-    store(upto, out_.horizon + i);
-    return max(before, crest);
+  HWY_INLINE Group crest(std::size_t i) const {
+    const auto near = load<Group>(out_.near + i);
+    return in_.crest == nullptr ? near : max(near, load<Group>(in_.crest + i));
+  }
+
+  // Raises the horizon to the crests and the ground before the samples.
+  template <class Group>
+  HWY_INLINE Horizon<Group> raise_horizon(std::size_t i) {
+    const auto between = crest<Group>(i);
+    const auto horizon = horizon_.after(max(load<Group>(out_.horizon + i), between));
+    store(horizon.upto, out_.horizon + i);
+    store(max(horizon.before, between), out_.before + i);
+    return horizon;
+  }
+
+  // Rise of the horizon over the cell of each sample. The ground midway between two samples divides the rise between
+  // them; it is taken as straight there. Next to a void the other half of the cell stands for both. kAlone: a sample
+  // without neighbours that is lit.
+  template <class Group>
+  HWY_INLINE Group visible_rise(std::size_t i, const Group& tangent, const Group& upto, const Group& before) const {
+    const auto no_ground = constant<Group>(kNoHorizon);
+    const auto nearer = load<Group>(out_.tangent + i - 1);
+    const auto farther = load<Group>(out_.tangent + i + 1);
+    const auto horizon_after = max(upto, max(farther, crest<Group>(i + 1)));
+    const auto near_edge = mul_add(load<Group>(in_.midway_weight + i), sub(nearer, tangent), tangent);
+    const auto far_edge = mul_add(load<Group>(in_.midway_weight + i + 1), sub(tangent, farther), farther);
+    const auto near = sub(upto, min(max(near_edge, before), upto));
+    const auto far = sub(min(max(far_edge, upto), horizon_after), upto);
+    const auto has_near = less(no_ground, nearer);
+    const auto has_far = less(no_ground, farther);
+    const auto rise = add(choose(has_near, near, far), choose(has_far, far, or_zero(has_near, near)));
+    const auto neighbour = max(nearer, farther);
+    if (none(less_or_equal(neighbour, no_ground))) return rise;
+    const auto lit = less(max(before, crest<Group>(i)), tangent);
+    return choose(less(no_ground, neighbour), rise, or_zero(lit, constant<Group>(kAlone)));
   }
 
   template <class Group, class GroupMask>
-  HWY_INLINE void store_power(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMask& lit) {
+  HWY_INLINE void store_power(std::size_t i, const Geometry<Group>& g, const Group& height, const Group& rise,
+                              const GroupMask& seen) {
     // A void counts as ground of height 0, and the aircraft may be at that ground. The slant range is at least 1 m.
     const auto slant_square = max(mul_add(g.out_m, g.out_m, mul(g.up_m, g.up_m)), constant<Group>(1.0F));
-    auto power = lit_power(c_, beam_, in_, ground_, i, g, height, slant_square, lit);
+    auto power = seen_power(c_, beam_, in_, ground_, i, g, height, slant_square, rise, seen);
+    const auto scale = [&](const Group& factor) {
+      power.of_ground = mul(power.of_ground, factor);
+      power.per_gamma = mul(power.per_gamma, factor);
+    };
     if (c_.range_power != 0.0F) {
-      const auto control = each(
+      scale(each(
           [&](Floats x) {
             const auto octaves = hn::Sub(hn::Mul(polynomials::log2(Tag(), x), constant<Floats>(0.5F)), range_octaves_);
             return polynomials::exp2(Tag(), hn::Mul(constant<Floats>(c_.range_power), octaves));
           },
-          slant_square);
-      power = mul(power, control);
+          slant_square));
     }
-    if (in_.gas.constant != nullptr) power = mul(power, gas(i, height));
-    store(power, out_.power + i);
+    if (in_.gas.constant != nullptr) scale(gas(i, height));
+    store(power.of_ground, out_.power + i);
+    if (out_.power_per_gamma != nullptr) store(power.per_gamma, out_.power_per_gamma + i);
   }
   template <class Group>
   HWY_INLINE Group gas(std::size_t i, const Group& height) const {

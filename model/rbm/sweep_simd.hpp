@@ -1,6 +1,6 @@
 // SIMD loops of the real beam map algorithm `standard`, from terrain to power, written with the Highway library. All
 // values are float, in one array per quantity.
-// Inputs: ground elevation, distance, slope and crest of each sample; constants of the sweep; ground reflectivity.
+// Inputs: ground elevation, distance and crest of each sample; constants of the sweep; ground reflectivity.
 // Outputs: horizon and other tangents of elevation angles at the aircraft, positive above the horizontal; power (full
 // scale = 1).
 // Sensitivity time control multiplies power by (slant range / R0)^n. R0 is the selected range.
@@ -31,7 +31,7 @@ struct SweepConstants {
   float land_gamma = 0.0F;     // sigma0 / sine of the grazing angle, for land without culture
   float pulse_inverse = 0.0F;  // [1/m] 1 / (c tau / 2); tau is the pulse duration
   float beam_inverse = 0.0F;   // [1/rad] 1 / theta_el; theta_el is the elevation beamwidth
-  float scale = 0.0F;          // theta_az / (full scale R0^3); theta_az is the azimuth beamwidth
+  float scale = 0.0F;          // theta / (full scale R0^3); theta is the width of the clutter cell in azimuth
   float range_inverse = 0.0F;  // [1/m] 1 / R0; sensitivity time control is 1 at slant range R0
   float range_power = 0.0F;    // exponent of the sensitivity time control, minus 3
   float sin_elevation = 0.0F;  // sine of the antenna elevation, positive above the horizontal
@@ -45,15 +45,16 @@ struct SweepConstants {
 
 // Inputs of one sweep: one entry per sample.
 struct SweepInputs {
-  const float* distance_m;        // ground distance from the apex
-  const float* elevation_m;       // [m MSL] ground that returns power; NaN: void
-  const float* peak_m;            // [m MSL] highest ground around the sample, which casts the shadow; null: elevation_m
-  const float* near_m;            // [m MSL] terrain::NearGround; NaN: none
-  const float* near_back_m;       // [m] its distance before the sample
-  const float* crest;             // maximum tangent of ground between the previous sample and this one; null: no crests
-  const float* cross_slope;       // slope (rise per distance) across the sweep; its sign has no effect; null: 0
-  const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
-  const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
+  const float* distance_m;   // ground distance from the apex
+  const float* elevation_m;  // [m MSL] ground that returns power; NaN: void
+  const float* peak_m;       // [m MSL] highest ground around the sample, which casts the shadow; null: elevation_m
+  const float* near_m;       // [m MSL] terrain::NearGround; NaN: none
+  const float* near_back_m;  // [m] its distance before the sample
+  const float* crest;        // maximum tangent of ground between the previous sample and this one; null: no crests
+  // Weight of the tangent of the sample before this one, in the tangent of straight ground midway between both. The
+  // rest is the weight of this one's tangent.
+  const float* midway_weight;
+  const float* cell_inverse;  // [1/m] converts the rise of the tangent over the sample's cell to that per metre
   physics::GasSamples::Coefficients gas;      // two-way loss by the gases of the air
   const physics::simd::GroundInputs* ground;  // null: all samples are land without culture and texture
 };
@@ -63,15 +64,17 @@ struct SweepOutputs {
   float* before;   // maximum tangent of all ground nearer than the sample
   float* horizon;  // maximum tangent of all ground up to and including the sample
   float* power;    // full scale = 1, after sensitivity time control, before pulse smear; 0 in shadow and over a void
+  float* power_per_gamma;  // what the power would be if the ground were land with gamma 1; null: not computed
 };
 
 // Computes the tangent of each sample, the horizon that the samples alone make, and `near`. Crests below this horizon
-// hide nothing. Does not read slopes, crests and `ground`.
+// hide nothing. Does not read weights, crests and `ground`.
 void profile(std::size_t count, const SweepConstants& constants, const SweepInputs& inputs,
              const SweepOutputs& outputs);
 
-// Computes power from terrain in one pass: shadow, slopes, local grazing angle, two-way gain, illuminated area,
-// reflectivity. Requires the outputs of profile(). Raises the horizon to the crests.
+// Computes power from terrain in one pass: shadow, angle of elevation over which the ground of each cell is seen,
+// two-way gain, illuminated area, reflectivity. A cell extends halfway to the neighbouring samples. Requires the
+// outputs of profile(). Raises the horizon to the crests.
 void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
            const SweepOutputs& outputs);
 

@@ -46,8 +46,8 @@ class Stages {
     const double spacing_m = request.range.metres() / samples;
     for (std::size_t i = 0; i < count_; ++i) {
       at(kDistance)[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);
-      at(kOneStep)[i] = static_cast<float>(1.0 / spacing_m);
-      at(kTwoSteps)[i] = static_cast<float>(0.5 / spacing_m);
+      at(kMidwayWeight)[i] = 0.5F;
+      at(kCellInverse)[i] = static_cast<float>(1.0 / spacing_m);
     }
     constants_.altitude_m = static_cast<float>(request.pose.altitude.metres());
     constants_.curvature = 1.0F / 8.5e6F;
@@ -77,13 +77,14 @@ class Stages {
     inputs.near_m = at(kNear);
     inputs.near_back_m = at(kNearBack);
     inputs.crest = at(kCrest);
-    inputs.one_step_inverse = at(kOneStep);
-    inputs.two_step_inverse = at(kTwoSteps);
+    inputs.midway_weight = at(kMidwayWeight);
+    inputs.cell_inverse = at(kCellInverse);
     const rbm::simd::SweepOutputs outputs{.near = at(kNearTangent),
                                           .tangent = at(kTangent),
                                           .before = at(kBefore),
                                           .horizon = at(kHorizon),
-                                          .power = at(kPower)};
+                                          .power = at(kPower),
+                                          .power_per_gamma = nullptr};
     stage("profile", {kDistance, kElevation, kNear, kNearBack}, {kTangent, kHorizon, kNearTangent},
           [&](int) { rbm::simd::profile(count_, constants_, inputs, outputs); });
     stage("crests", {kDistance, kNorth, kEast, kNorth, kEast, kHorizon}, {kCrest}, [&](int) {
@@ -94,7 +95,7 @@ class Stages {
                         .horizon = {at(kHorizon), count_}},
                        {at(kCrest), count_});
     });
-    stage("sweep", {kDistance, kElevation, kTangent, kNearTangent, kCrest, kOneStep, kTwoSteps},
+    stage("sweep", {kDistance, kElevation, kTangent, kNearTangent, kCrest, kMidwayWeight, kCellInverse},
           {kBefore, kHorizon, kPower},
           [&](int) { rbm::simd::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs, outputs); });
     std::array<float, 2 * physics::PulseSmear::kMaxRadius + 1> weights{};
@@ -152,8 +153,8 @@ class Stages {
     kCrest,
     kSpare,  // scratch
     kHorizon,
-    kOneStep,
-    kTwoSteps,
+    kMidwayWeight,
+    kCellInverse,
     kPower,
     kSmeared,
     kVariate,

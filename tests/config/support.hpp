@@ -36,11 +36,11 @@ inline auto fields(const radar::ViewConfiguration& view) {
 
 inline auto fields(const radar::Fidelity& fidelity) {
   const auto& [name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams, slant,
-               slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce,
-               map_noise] = fidelity;
+               noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce, map_noise] =
+      fidelity;
   return std::tuple(name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams,
-                    slant, slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground,
-                    bounce, map_noise);
+                    slant, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce,
+                    map_noise);
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {

@@ -300,7 +300,6 @@ TEST(ExtremeNumbers, RandomExtremesOverRuggedGroundWithVoidsGiveOnlySweepsOfFini
   };
   test::for_each_algorithm_and_beam(24, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.slant_range = random() % 2 == 0;
-    configuration.fidelity.cross_track_slope = random() % 2 == 0;
     configuration.fidelity.noise = configuration.fidelity.pulse_smear = configuration.fidelity.azimuth_smear = true;
     configuration.antenna.elevation_beamwidth_deg = 2.5;
     Cockpit cockpit(configuration, rugged);

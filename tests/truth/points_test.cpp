@@ -95,7 +95,7 @@ TEST(Truth, PulseLimitedClutterLosesNineDecibelsAtTwiceTheRange) {
   const physics::Receiver receiver = physics::Receivers(plain()).at(ahead().range);
   const double sine = std::sin(2.0 * geo::kRadiansPerDegree);
   const auto power = [&](double range_m) {
-    return physics::returned_power(physics::illuminated_area_m2(receiver, range_m, sine), 1.0, range_m);
+    return physics::returned_power(range_m * physics::illuminated_length_m(receiver, range_m, sine), 1.0, range_m);
   };
   expect_row({"Radar equation", "clutter of equal σ⁰ at 40 km over 20 km, pulse-limited", -9.0309, 0.001, "dB",
               "surface clutter equation, P ∝ σ⁰ / R³, Skolnik, Introduction to Radar Systems", "closed form"},

@@ -115,7 +115,6 @@ double second_moment(double shape) {
   configuration.world.land.texture = shape;
   physics::SurfaceReturn surface(configuration);
   surface.use_resolution(30.0, 30.0);
-  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::nautical_miles(20.0));
   constexpr std::size_t kCells = 1000;
   std::vector<float> variates(kCells + 16);
   Moments intensity;
@@ -123,7 +122,7 @@ double second_moment(double shape) {
     physics::simd::speckle(kCells, physics::make_noise_state({1, 1, row}), 1, variates.data());
     for (std::size_t column = 0; column < kCells; ++column) {
       const geo::GeoPoint position{37.0 + 0.0005 * row, -122.0 + 0.0005 * static_cast<double>(column)};
-      const double mean = surface.cross_section_m2(receiver, {position, {}, 20e3, 0.1, 0.1});
+      const double mean = surface.at({position, {}, 0.1}).gamma;
       intensity.add(mean * static_cast<double>(variates[column]));
     }
   }

@@ -29,15 +29,17 @@ tl::unexpected<error::Error> usage_failure(std::string_view subject, std::string
 
 // Slots of the form Fidelity that affect scans, patch maps, or both. Their values and limits are those of the form.
 constexpr std::array<std::string_view, 3> kOfBoth{"geodesicKnots", "interpolation", "earth"};
-constexpr std::array<std::string_view, 7> kOfScans{"samples",    "postsPerSample", "subBeams", "crossTrackSlope",
+constexpr std::array<std::string_view, 6> kOfScans{"samples",    "postsPerSample", "subBeams",
                                                    "pulseSmear", "azimuthSmear",   "beam"};
 constexpr std::array<std::string_view, 7> kOfMaps{"mapSize",         "mapOversampling", "mapLayover",     "mapResponse",
                                                   "mapSmoothGround", "mapDetail",       "mapDoubleBounce"};
 
 std::vector<std::string_view> knobs_of(Subject subject) {
   std::vector<std::string_view> names(kOfBoth.begin(), kOfBoth.end());
-  const auto& more = subject == Subject::scan ? kOfScans : kOfMaps;
-  names.insert(names.end(), more.begin(), more.end());
+  if (subject == Subject::scan)
+    names.insert(names.end(), kOfScans.begin(), kOfScans.end());
+  else
+    names.insert(names.end(), kOfMaps.begin(), kOfMaps.end());
   return names;
 }
 

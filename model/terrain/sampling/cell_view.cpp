@@ -250,7 +250,7 @@ PostSpacing CellView::post_spacing_at(geo::GeoPoint position) const {
   const std::uint16_t table_entry = entry(cell_containing(position));
   if (table_entry < kFirstCell) return {};
   const Cell& cell = *cells_[table_entry - kFirstCell].heights;
-  return {walked_spacing_m(cell), 1.0 / (cell.columns() - 1)};
+  return {walked_spacing_m(cell), 1.0 / (cell.rows() - 1), 1.0 / (cell.columns() - 1)};
 }
 
 std::vector<std::shared_ptr<const Cell>> CellView::cells_within(const GeoBox& box) const {

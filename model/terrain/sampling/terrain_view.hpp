@@ -75,6 +75,7 @@ inline constexpr std::size_t kRunSlack = 16;
 // Spacing of the posts of a cell.
 struct PostSpacing {
   double ray_step_m = 0.0;   // [m] step along a ray: smaller of row and column spacing, but >= 1/3 of row spacing
+  double rows_deg = 0.0;     // [deg] latitude between rows; a row lies on every whole degree
   double columns_deg = 0.0;  // [deg] longitude between columns; a column lies on every whole degree
 };
 

@@ -20,6 +20,7 @@
 #include "model/hrm/reference.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "tests/model/bounds/lines_of_posts.hpp"
 #include "tests/model/bounds/made_up_coast.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
@@ -137,11 +138,21 @@ class Truth {
     // Step on the path: 0.3 of the row spacing, but between 0.01 and 0.1 of the post spacing.
     const double path_step_m = std::clamp(0.3 * computed.grid.spacing_m, 0.1 * step_m, step_m);
     const int path_steps = static_cast<int>(std::ceil(first_m / path_step_m));
-    for (int step = 1; step < path_steps; ++step) add(path, step * path_step_m);
-    const int steps = static_cast<int>(std::ceil(computed.grid.spacing_m / step_m));
+    for (int step = 1; step < path_steps; ++step) {
+      add_lines_of_posts(path, (step - 1) * path_step_m, step * path_step_m);
+      add(path, step * path_step_m);
+    }
+    // `reference` is nearer to the summits between the nodes of smooth ground than steps of a tenth of the posts.
+    const double row_step_m = computed.reference ? 0.1 * step_m : step_m;
+    const int steps = static_cast<int>(std::ceil(computed.grid.spacing_m / row_step_m));
+    const auto row_m = [&](int row, int step) {
+      return computed.grid.distance_m(row + static_cast<double>(step) / steps);
+    };
     for (int row = 0; row + 1 < computed.grid.rows; ++row)
-      for (int step = 0; step < steps; ++step)
-        add(window, computed.grid.distance_m(row + static_cast<double>(step) / steps));
+      for (int step = 0; step < steps; ++step) {
+        if (step > 0) add_lines_of_posts(window, row_m(row, step - 1), row_m(row, step));
+        add(window, row_m(row, step));
+      }
   }
   double own_tangent(double distance_m) const { return tangent(window_, distance_m); }
   double horizon_before(double distance_m) const {
@@ -151,6 +162,9 @@ class Truth {
   }
 
  private:
+  void add_lines_of_posts(const terrain::TerrainView& view, double from_m, double to_m) {
+    for (const double line_m : lines_of_posts_m(view, ray_, from_m, to_m)) add(view, line_m);
+  }
   void add(const terrain::TerrainView& view, double distance_m) {
     const double before = highest_.empty() ? kNoTangent : highest_.back();
     distance_m_.push_back(distance_m);
@@ -184,10 +198,10 @@ Counts compare(std::string_view preset, const Country& country, double window_nm
   const PresetGround& computed = *made;
   const geo::Length reach = geo::Length::metres(1.5 * computed.grid.distance_m(computed.grid.rows - 1));
   const auto finest = store.prepare({order.apex, reach.metres(), 0});
-  // Smoothed ground with at least 10 nodes per post interval.
+  // Smoothed ground, that of `reference` itself, else with at least 10 nodes per post interval.
   terrain::SmoothParameters finer =
       hrm::smoothing_parameters(computed.geometry, computed.grid, configuration.fidelity, {});
-  finer.min_parts = std::max(finer.min_parts, 10);
+  if (!exact) finer.min_parts = std::max(finer.min_parts, 10);
   const auto ground = configuration.fidelity.map_smooth_ground ? terrain::smooth_between_posts(finest, finer) : finest;
   Counts counts;
   const int columns = exact ? 3 * kColumns : kColumns;
@@ -219,7 +233,8 @@ double expect_within_bounds(const Country& country, std::span<const double> wind
       if (counts.points == 0.0) continue;
       const double wrong = counts.wrong / counts.points;
       most_dark = std::max(most_dark, counts.dark / counts.points);
-      EXPECT_LE(wrong, preset.max_wrong_shadow) << country.name << ", " << preset.name << ", " << window_nm << " NM";
+      EXPECT_LE(wrong, preset.max_wrong_shadow + 1.0 / counts.points)
+          << country.name << ", " << preset.name << ", " << window_nm << " NM";
       std::printf("%s, %s, %g NM: %.0f points, %.1f %% dark, %.3f %% differ\n", country.name.c_str(),
                   preset.name.data(), window_nm, counts.points, 100.0 * counts.dark / counts.points, 100.0 * wrong);
     }

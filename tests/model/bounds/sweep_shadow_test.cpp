@@ -1,6 +1,6 @@
 // Shadow of terrain on sweeps, against brute force. Brute force samples the bilinear ground in steps of a tenth of the
-// post spacing, along the exact geodesic on the exact effective earth. A sample is dark if any nearer ground has an
-// equal or greater tangent of elevation.
+// post spacing and at each line of posts, along the exact geodesic on the exact effective earth. A sample is dark if
+// any nearer ground has an equal or greater tangent of elevation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,6 +22,7 @@
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "tests/model/bounds/lines_of_posts.hpp"
 #include "tests/model/bounds/made_up_coast.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
 #include "tests/model/terrain/sampling/rough_cell.hpp"
@@ -65,9 +66,13 @@ Truth brute_force(const physics::SweepGeometry& geometry, const terrain::Terrain
   double horizon = kNoTangent;
   for (std::size_t i = 0; i < samples; ++i) {
     const double centre_m = (static_cast<double>(i) + 0.5) * spacing_m;
-    for (int step = 1; step < steps; ++step) {
+    for (int step = 1; step <= steps; ++step) {
       const double distance_m = centre_m - spacing_m * (1.0 - static_cast<double>(step) / steps);
-      if (distance_m > 0.0) horizon = std::max(horizon, tangent(distance_m));
+      if (!(distance_m > 0.0)) continue;
+      for (const double line_m :
+           test::lines_of_posts_m(finest, ray, std::max(0.0, distance_m - spacing_m / steps), distance_m))
+        if (line_m < distance_m || step < steps) horizon = std::max(horizon, tangent(line_m));
+      if (step < steps) horizon = std::max(horizon, tangent(distance_m));
     }
     const double own_tangent = tangent(centre_m);
     truth.known.push_back(own_tangent > kNoTangent);

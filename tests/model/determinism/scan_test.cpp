@@ -141,7 +141,6 @@ TEST(Determinism, SubBeamsGiveTheSameHashesForAnyNumberOfThreadsAndInTheLiveKern
        {std::pair{radar::Algorithm::standard, 137}, {radar::Algorithm::reference, 23}}) {
     auto configuration = with(algorithm, samples);
     configuration.fidelity.sub_beams = 13;
-    configuration.fidelity.cross_track_slope = true;
     radar::Mover mover;
     mover.position = {37.2, -121.75};
     mover.speed_mps = 200.0;

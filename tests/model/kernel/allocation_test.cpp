@@ -55,7 +55,6 @@ long allocations_of(radar::Algorithm algorithm, int sub_beams = 1) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.sub_beams = sub_beams;
   configuration.fidelity.algorithm = algorithm;
-  configuration.fidelity.cross_track_slope = true;
   configuration.fidelity.samples = 64;
   configuration.world.rain.cells.push_back({{37.2, -121.8}, 9000.0, 10.0, 5000.0});
   configuration.world.jamming.jammers.push_back({"jammer", {37.4, -121.6}});

@@ -25,19 +25,17 @@ TEST(Receiver, AtTwiceTheRangePulseLimitedClutterReturnsNineDecibelsLess) {
   const physics::Receiver receiver = receiver_at(40.0);
   const double sin_grazing = std::sin(2.0 * geo::kRadiansPerDegree);
   const double near =
-      physics::returned_power(physics::illuminated_area_m2(receiver, 20000.0, sin_grazing), 1.0, 20000.0);
+      physics::returned_power(20000.0 * physics::illuminated_length_m(receiver, 20000.0, sin_grazing), 1.0, 20000.0);
   const double far =
-      physics::returned_power(physics::illuminated_area_m2(receiver, 40000.0, sin_grazing), 1.0, 40000.0);
+      physics::returned_power(40000.0 * physics::illuminated_length_m(receiver, 40000.0, sin_grazing), 1.0, 40000.0);
   EXPECT_NEAR(decibels(far / near), -9.03, 0.005);
 }
 
 TEST(Receiver, IsBeamLimitedStraightDownAndPulseLimitedAtZeroGrazing) {
   const physics::Receiver receiver = receiver_at(40.0);
   const double range_m = 10000.0;
-  EXPECT_NEAR(physics::illuminated_area_m2(receiver, range_m, 1.0),
-              range_m * range_m * receiver.azimuth_beamwidth_rad * receiver.elevation_beamwidth_rad, 1e-3);
-  EXPECT_NEAR(physics::illuminated_area_m2(receiver, range_m, 0.0),
-              range_m * receiver.azimuth_beamwidth_rad * receiver.pulse_length_m, 1e-3);
+  EXPECT_NEAR(physics::illuminated_length_m(receiver, range_m, 1.0), range_m * receiver.elevation_beamwidth_rad, 1e-6);
+  EXPECT_NEAR(physics::illuminated_length_m(receiver, range_m, 0.0), receiver.pulse_length_m, 1e-6);
 }
 
 TEST(Receiver, ThePulseOfTheShortestRangeCoversTheReports127Feet) {
@@ -88,8 +86,17 @@ TEST(PulseSmear, OfTwoSamplesIsAQuarterAHalfAQuarter) {
   EXPECT_DOUBLE_EQ(smear.weights[2], 0.25);
 }
 
-TEST(PulseSmear, IsNoneForAPulseShorterThanASample) {
-  const physics::PulseSmear smear = physics::make_pulse_smear(0.3);
+// A sample is the mean over its cell: with a pulse of half a sample, a quarter of the cell's ranges sees the next
+// sample with a quarter of the pulse on average.
+TEST(PulseSmear, OfHalfASampleReachesASixteenthIntoItsNeighbours) {
+  const physics::PulseSmear smear = physics::make_pulse_smear(0.5);
+  ASSERT_EQ(smear.reach, 1);
+  EXPECT_DOUBLE_EQ(smear.weights[0], 0.0625);
+  EXPECT_DOUBLE_EQ(smear.weights[1], 0.875);
+}
+
+TEST(PulseSmear, IsNoneForAPulseWithoutLength) {
+  const physics::PulseSmear smear = physics::make_pulse_smear(0.0);
   EXPECT_EQ(smear.reach, 0);
   EXPECT_DOUBLE_EQ(smear.weights[0], 1.0);
 }

@@ -112,14 +112,13 @@ TEST(SurfaceReturn, HasTheSameTextureFromEveryDirection) {
   configuration.fidelity.noise = true;
   configuration.world.land.texture = 1.0;
   physics::SurfaceReturn surface(configuration);
-  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(40000.0));
-  surface.use_resolution(receiver.pulse_length_m, 40.0);
-  physics::Facet facet{{37.2, -122.3}, geo::Bearing(), 20000.0, 0.1, 0.1, 0.0, 0};
-  const double once = surface.cross_section_m2(receiver, facet);
+  surface.use_resolution(300.0, 40.0);
+  physics::Facet facet{{37.2, -122.3}, geo::Bearing(), 0.1, 0.0, 0};
+  const double once = surface.at(facet).gamma;
   facet.azimuth = geo::Bearing::degrees(200.0);
-  EXPECT_EQ(surface.cross_section_m2(receiver, facet), once);
+  EXPECT_EQ(surface.at(facet).gamma, once);
   facet.position.latitude_deg += 0.1;
-  EXPECT_NE(surface.cross_section_m2(receiver, facet), once);
+  EXPECT_NE(surface.at(facet).gamma, once);
 }
 
 }  // namespace

@@ -186,7 +186,6 @@ struct World {
 
 TEST(SubBeams, OfAHoveringAircraftDoNotDependOnEarlierSweeps) {
   World world;
-  world.configuration.fidelity.cross_track_slope = true;
   Beam kept(world.configuration);
   for (int sweep = 0; sweep < 40; ++sweep) {
     physics::SweepGeometry geometry = towards(-8.0 + 0.549 * (sweep < 30 ? sweep : 60 - sweep));
@@ -202,7 +201,6 @@ TEST(SubBeams, HaveTheSamePowerOnEveryVectorTarget) {
   for (const int samples : {1, 37, 240}) {
     World world;
     world.configuration.fidelity.samples = samples;
-    world.configuration.fidelity.cross_track_slope = true;
     std::vector<float> first;
     test::for_each_vector_target([&](const char* name) {
       std::vector<float> power(static_cast<std::size_t>(samples));
