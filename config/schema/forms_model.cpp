@@ -174,7 +174,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kAlgorithms{"standard", "reference", "report-1996"};
 constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellipsoid"};
 constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
-constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
+constexpr std::array<std::string_view, 4> kBeams{"hard-edge", "gaussian", "cosecant-squared", "mapping"};
 
 // The presets, and `auto`, with which radar-model selects a preset by its processor load.
 constexpr auto kPresets = [] {
@@ -266,6 +266,10 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .purpose = "maximum load as a fraction of a CPU core, for automatic"},
       flag("slantRange", YARS_FIELD(radar.fidelity.slant_range),
            "true: samples are equidistant in slant range; false: in ground range"),
+      {.name = "crossTrackSlope",
+       .binding = BooleanSlot{},
+       .purpose = "incidence angle includes the slope across the sweep",
+       .instead = "land returns by its area normal to the ray, whatever the slope across the sweep"},
       flag("noise", YARS_FIELD(radar.fidelity.noise),
            "random fluctuation: of sweeps by speckle and texture, of patch maps by speckle"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over three sweeps"),
@@ -274,7 +278,8 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .binding = ChoiceSlot{
            kBeams, [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.beam); },
            [](ConfigurationBuilder& builder, int index) { builder.radar.fidelity.beam = radar::BeamPattern(index); }},
-       .purpose = "beam pattern in elevation"}};
+       .purpose = "beam pattern in elevation; two-way gain below its centre: cosecant-squared csc^2, mapping csc^4 "
+                  "(one-way csc^2)"}};
 }
 
 // Slots of patch maps.
@@ -308,13 +313,17 @@ std::vector<SlotSchema> map_fidelity_slots() {
 std::vector<SlotSchema> receiver_slots() {
   return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier frequency"),
           number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
-                      "sensitivity time control: exponent n of (slant range / selected range)^n"),
+                      "sensitivity time control: exponent n of (slant range / 40 NM)^n; left out: flat land is even in "
+                      "range (mapping 0, cosecant-squared 2, other beams 3)"),
           number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)},
                       "range of the power from black to white"),
           number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)},
                       "loss per step of GAIN, from 3 down to 0"),
           number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
-                      "gamma of land without culture: sigma0 = gamma sin(grazing angle)")};
+                      "gamma of land without culture: sigma0 = gamma sin(grazing angle)"),
+          flag("automaticGain", YARS_FIELD(radar.receiver.automatic_gain),
+               "true: level land at half the selected range has one brightness from every altitude; false: power in "
+               "units of full scale is drawn")};
 }
 
 std::vector<SlotSchema> high_resolution_slots() {
@@ -356,7 +365,7 @@ std::vector<SlotSchema> high_resolution_slots() {
 
 std::vector<SlotSchema> noise_slots() {
   return {number_slot("floor", "dB", -120, 0, {YARS_FIELD(radar.receiver.noise_floor_db)},
-                      "thermal noise, relative to full scale"),
+                      "thermal noise with the pulse of the 40 NM range, relative to full scale"),
           {.name = "looks",
            .lowest = values::PatchRequest::looks.low,
            .highest = values::PatchRequest::looks.high,

@@ -41,7 +41,7 @@ struct Fidelity {
   bool noise = true;           // random fluctuation: speckle and texture of sweeps, speckle of maps
   bool azimuth_smear = false;  // smear over three sweeps
   bool pulse_smear = true;     // smear over the pulse length
-  BeamPattern beam = BeamPattern::cosecant_squared;
+  BeamPattern beam = BeamPattern::mapping;
   // Parameters of patch maps.
   int map_size = 480;              // [pixels] edge of the map; in a session at most 1024
   int map_oversampling = 1;        // cells of the polar grid (range, azimuth) per pixel, in each direction, 1 to 4

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,9 @@
 #include "lib/values/defaults.hpp"
 
 namespace yars::radar {
+
+// Value of a slot that a configuration does not set.
+inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 // Sizes of arrays in records, numbers of sequence points, and the duration of a tick.
 inline constexpr int kMaxSamples = 4096;                         // maximum number of samples of a sweep
@@ -51,7 +55,7 @@ enum class Recall : std::uint8_t { none = 0, newest = 1, old = 2, store = 3 };
 
 // Settings of a configuration.
 enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };
-enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_squared = 2 };
+enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_squared = 2, mapping = 3 };
 enum class Interpolation : std::uint8_t { nearest = 0, bilinear = 1, cubic = 2 };
 enum class Algorithm : std::uint8_t { standard = 0, reference = 1, report_1996 = 2 };
 enum class Polarization : std::uint8_t { horizontal = 0, vertical = 1 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/geo/quantity.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::radar {
 
@@ -30,11 +31,14 @@ struct AntennaConfiguration {
 
 // Receiver, and the return of land; docs/spec/physics.md#power-and-video.
 struct ReceiverConfiguration {
-  double frequency_ghz = 9.6;      // [GHz]
-  double stc_exponent = 3.0;       // n of the sensitivity time control (R/R0)^n; R: slant range, R0: selected range
+  double frequency_ghz = 9.6;  // [GHz]
+  // n of the sensitivity time control (R / 40 NM)^n, R: slant range. kNotGiven: that which makes flat land even in
+  // range with the beam of the fidelity.
+  double stc_exponent = kNotGiven;
+  bool automatic_gain = true;      // level land at half the selected range has one brightness from every altitude
   double dynamic_range_db = 45.0;  // [dB] power ratio of white to black at gain 3, logarithmic receiver
   double gain_step_db = 8.0;       // [dB] gain change between neighbouring settings GAIN 3, 2, 1, 0
-  double noise_floor_db = -42.0;   // [dB] thermal noise relative to full scale
+  double noise_floor_db = -55.0;   // [dB] thermal noise relative to full scale, with the pulse of 40 NM
   double land_gamma_db = -14.0;    // [dB] gamma of land without culture: sigma0 = gamma sin(grazing angle)
   int looks = 4;                   // independent looks averaged in each sample; more looks give less speckle
 };

@@ -4,7 +4,6 @@
 // Source: docs/spec/physics.md#power-and-video.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -15,9 +14,6 @@
 #include "lib/values/defaults.hpp"
 
 namespace yars::radar {
-
-// Value of a slot that a configuration does not set.
-inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 // The following limits bound the work of one sweep.
 using values::kMaxJammers;

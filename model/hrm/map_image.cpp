@@ -240,7 +240,8 @@ void form_video(const radar::HighResolutionConfiguration& hrm, const MapImage& i
                                             noise.with_speckle ? speckle.row(static_cast<int>(row)) : nullptr,
                                             nullptr,
                                             static_cast<float>(-hrm.brightest_gamma_db),
-                                            static_cast<float>(hrm.dynamic_range_db)};
+                                            static_cast<float>(hrm.dynamic_range_db),
+                                            nullptr};
     physics::simd::form_video(size, inputs, &picture[row * size]);
     if (!image.blind) continue;
     // Without a branch, so that the compiler uses vectors.

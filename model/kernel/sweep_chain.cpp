@@ -52,6 +52,10 @@ std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps) {
 
 namespace {
 constexpr std::uint32_t kNoEchoFlags = databuffer::kSweepBlank | databuffer::kSweepNoiseOnly;
+
+bool is_beacon(const SweepChain::Labels& labels) {
+  return labels.mode == static_cast<std::uint8_t>(radar::Mode::beacon);
+}
 }  // namespace
 
 SweepChain::SweepChain(const physics::RadarParameters& parameters)
@@ -94,7 +98,7 @@ void SweepChain::receive(Measured& measured, const physics::Environment& environ
   measured.jamming = blank ? 0.0 : strobes_.level(geometry, environment.terrain);
   if ((labels.flags & kNoEchoFlags) != 0U || labels.no_return) {
     std::fill(measured.power.begin(), measured.power.end(), 0.0F);
-  } else if (labels.mode == static_cast<std::uint8_t>(radar::Mode::beacon)) {
+  } else if (is_beacon(labels)) {
     beacons_.measure(geometry, environment.terrain, measured.power);
   } else {
     const std::size_t pending = beam_.measure(geometry, environment, measured.power);
@@ -146,7 +150,10 @@ void finish_sweep(rbm::Beam& beam, std::uint64_t seed, const SweepHeader& header
   if ((labels.flags & databuffer::kSweepBlank) != 0U || labels.no_return) {
     std::fill(video.begin(), video.end(), std::uint8_t{0});
   } else {
-    beam.form_video(window, header.range, labels.gain, {seed, labels.scan, labels.number}, video);
+    physics::PowerWindow amplified = window;
+    const bool ground = (labels.flags & kNoEchoFlags) == 0U;
+    if (!is_beacon(labels)) amplified.automatic_gain_db = beam.automatic_gain_db(geometry_of(header), ground);
+    beam.form_video(amplified, header.range, labels.gain, {seed, labels.scan, labels.number}, video);
   }
   sweep.hash = databuffer::sweep_hash(sweep);
 }

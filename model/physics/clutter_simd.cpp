@@ -149,7 +149,8 @@ void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* vide
   const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.dynamic_range_db));
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const std::size_t remaining = count - i;
-    auto power = fused::mul_add(first, load(in.before + i, remaining), noise);
+    const auto received = in.time_control == nullptr ? noise : hn::Mul(noise, load(in.time_control + i, remaining));
+    auto power = fused::mul_add(first, load(in.before + i, remaining), received);
     power = fused::mul_add(second, load(in.centre + i, remaining), power);
     power = fused::mul_add(third, load(in.after + i, remaining), power);
     if (in.variate != nullptr) power = hn::Mul(power, variates(in, i));

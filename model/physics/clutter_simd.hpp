@@ -81,6 +81,7 @@ struct VideoInputs {
   const std::int32_t* cell;  // resolution cell of sample i: that of sample i - 1, or 1 more; null: cell i
   float gain_db;
   float dynamic_range_db;
+  const float* time_control = nullptr;  // factor on `noise` by sample; null: 1
 };
 
 // Azimuth smear, noise, speckle and log receiver: video = 255 (1 + (10 log10 power + gain_db) / dynamic_range_db),

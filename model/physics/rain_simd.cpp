@@ -63,8 +63,19 @@ struct Direction {
   RainFloats out, up;
 };
 
-// Integral [rad] of the two-way pattern over elevation, from its centre down to a direction; negative above the centre.
-HWY_INLINE RainFloats integral_below(const RainConstants& c, radar::BeamPattern beam, Direction to) {
+// Edge of an interval of elevations. Integrals of the cosecant patterns below their centre are differences of functions
+// of the cotangent, which would cancel in single precision if they were computed from the centre.
+struct Edge {
+  RainFloats integral;  // [rad] of the two-way pattern, from its centre down to the edge; negative above the centre
+  RainFloats
+      cotangent;  // of the angle x of the cosecant patterns; their `integral` has the part above the centre alone
+};
+
+HWY_INLINE bool is_cosecant(radar::BeamPattern beam) {
+  return beam == radar::BeamPattern::cosecant_squared || beam == radar::BeamPattern::mapping;
+}
+
+HWY_INLINE Edge edge_at(const RainConstants& c, radar::BeamPattern beam, Direction to) {
   const RainTag d;
   const auto zero = hn::Zero(d);
   const auto above = fused::mul_sub(set(c.cos_elevation), to.up, hn::Mul(set(c.sin_elevation), to.out));
@@ -75,22 +86,38 @@ HWY_INLINE RainFloats integral_below(const RainConstants& c, radar::BeamPattern 
   const auto signed_below = [&](RainFloats value) {
     return hn::IfThenElse(hn::Gt(above, zero), hn::Neg(value), value);
   };
-  if (beam == radar::BeamPattern::hard_edge) return signed_below(hn::Min(off_axis(), set(c.half_beam_rad)));
+  if (beam == radar::BeamPattern::hard_edge) return {signed_below(hn::Min(off_axis(), set(c.half_beam_rad))), zero};
   const auto gaussian = [&] {
     return signed_below(hn::Mul(set(c.gaussian_rad), error_function(hn::Mul(set(c.erf_per_rad), off_axis()))));
   };
-  if (beam == radar::BeamPattern::gaussian) return gaussian();
-  // csc^2 below the centre: sin^2 b (cot b - cot x). b is the depression of the centre, at least half a beamwidth.
-  // x is b plus the angle from the centre down to the direction.
+  if (beam == radar::BeamPattern::gaussian) return {gaussian(), zero};
+  // The depression b of the centre is at least half a beamwidth. x is b plus the angle from the centre down to the
+  // edge.
   const auto sine = fused::mul_sub(set(c.sin_axis), to.out, hn::Mul(set(c.cos_axis), to.up));
   const auto cosine = fused::mul_add(set(c.cos_axis), to.out, hn::Mul(set(c.sin_axis), to.up));
   const auto within = hn::Gt(sine, zero);
   const auto min_cotangent = hn::Neg(set(c.centre_cotangent));
   const auto cotangent = hn::Div(cosine, hn::IfThenElse(within, sine, set(1.0F)));
   const auto limited = hn::Max(hn::IfThenElse(within, cotangent, min_cotangent), min_cotangent);
-  const auto below = hn::Mul(set(c.sin_centre2), hn::Sub(set(c.centre_cotangent), limited));
   const auto upper = hn::Gt(above, zero);
-  return hn::AllFalse(d, upper) ? below : hn::IfThenElse(upper, gaussian(), below);
+  if (hn::AllFalse(d, upper)) return {zero, limited};
+  return {hn::IfThenElseZero(upper, gaussian()), hn::IfThenElse(upper, set(c.centre_cotangent), limited)};
+}
+
+// Integral [rad] of the two-way pattern between two edges. Below the centre: csc^2 has sin^2 b (cot x - cot y), csc^4
+// has sin^4 b (cot x + cot^3 x / 3 - cot y - cot^3 y / 3). The difference of the cubes has that of the cotangents as a
+// factor.
+HWY_INLINE RainFloats integral_between(const RainConstants& c, radar::BeamPattern beam, const Edge& upper,
+                                       const Edge& lower) {
+  const auto integral = hn::Sub(lower.integral, upper.integral);
+  if (!is_cosecant(beam)) return integral;
+  const auto sine2 = set(c.sin_centre2);
+  const auto below = hn::Mul(sine2, hn::Sub(upper.cotangent, lower.cotangent));
+  if (beam == radar::BeamPattern::cosecant_squared) return hn::Add(integral, below);
+  const auto both = fused::mul_add(upper.cotangent, lower.cotangent, hn::Mul(lower.cotangent, lower.cotangent));
+  const auto squares = fused::mul_add(upper.cotangent, upper.cotangent, both);
+  const auto factor = hn::Mul(sine2, fused::mul_add(squares, set(1.0F / 3.0F), set(1.0F)));
+  return fused::mul_add(below, factor, integral);
 }
 
 // Samples of one vector: quantities that all showers share.
@@ -153,14 +180,14 @@ class RainVector {
     const RainTag d;
     const auto zero = hn::Zero(d);
     if (!has_lower_) {
-      lower_ = integral_below(c_, beam_, {set(1.0F), horizon_});
+      lower_ = edge_at(c_, beam_, {set(1.0F), horizon_});
       has_lower_ = true;
     }
     const auto off = hn::Mul(offset_m, set(crossing.radius_inverse));
     const auto root = hn::Max(fused::neg_mul_add(off, off, set(crossing.depth)), zero);
     const Direction top = to_height(set(crossing.top_m));
     const auto lit = hn::Gt(top.up, hn::Mul(horizon_, top.out));
-    const auto beam = hn::Max(hn::Sub(lower_, integral_below(c_, beam_, top)), zero);
+    const auto beam = hn::Max(integral_between(c_, beam_, edge_at(c_, beam_, top), lower_), zero);
     const auto strength = hn::Mul(hn::Mul(set(crossing.reflectivity), hn::Mul(root, root)), beam);
     return hn::IfThenElseZero(lit, hn::Div(strength, hn::Max(square_of(top), set(1.0F))));
   }
@@ -236,8 +263,8 @@ class RainVector {
   RainFloats slant_square_;                                   // of the ground
   RainFloats distance_inverse_;
   RainFloats sag_m_, fall_m_;  // coefficients of height_at()
-  RainFloats lower_ = hn::Zero(RainTag());
-  bool has_lower_ = false;  // true: lower_ is the beam's integral down to the horizon
+  Edge lower_{hn::Zero(RainTag()), hn::Zero(RainTag())};
+  bool has_lower_ = false;  // true: lower_ is the horizon
   RainFloats echo_ = hn::Zero(RainTag()), octaves_ = hn::Zero(RainTag());
 };
 
@@ -339,7 +366,7 @@ simd::RainConstants RainSamples::constants(const SweepGeometry& geometry, const 
   c.altitude_m = static_cast<float>(geometry.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
   c.half_stc = static_cast<float>(0.5 * receiver.stc_exponent);
-  c.stc_octaves = static_cast<float>(receiver.stc_exponent * std::log2(receiver.stc_range_m));
+  c.stc_octaves = static_cast<float>(receiver.stc_exponent * std::log2(kFullScaleRange.metres()));
   c.sin_elevation = static_cast<float>(std::sin(elevation_rad));
   c.cos_elevation = static_cast<float>(std::cos(elevation_rad));
   c.half_beam_rad = static_cast<float>(0.5 * beam_rad);

@@ -35,13 +35,13 @@ struct RainConstants {
   float altitude_m = 0.0F;   // [m MSL] of the aircraft
   float curvature = 0.0F;    // [1/m] of the effective earth
   float half_stc = 0.0F;     // half the exponent of the sensitivity time control
-  float stc_octaves = 0.0F;  // exponent times log2 of R0 [m], the range at which sensitivity time control is 1
+  float stc_octaves = 0.0F;  // exponent times log2 of kFullScaleRange [m]
   // Beam: elevation of the antenna, half of the elevation beamwidth, and values of beam_integral().
   float sin_elevation = 0.0F, cos_elevation = 1.0F;
   float half_beam_rad = 0.0F;
   float erf_per_rad = 0.0F;   // argument of erf() per angle off the axis
   float gaussian_rad = 0.0F;  // integral of the Gaussian pattern from the axis outwards
-  float sin_centre2 = 0.0F;   // squared sine of the depression of the csc^2 pattern's centre
+  float sin_centre2 = 0.0F;   // squared sine of the depression of the cosecant pattern's centre
   float centre_cotangent = 0.0F;
   float sin_axis = 0.0F, cos_axis = 1.0F;  // of the sum of that depression and the antenna's elevation
 };

@@ -25,7 +25,21 @@ double gaussian_integral(double angle_rad, double beamwidth_rad) {
   return 0.5 * std::sqrt(std::numbers::pi) / root * std::erf(root * angle_rad);
 }
 
-// Integral of the pattern from its centre to an angle below the centre (negative: above). For cosecant_squared the
+// Exponent n of sensitivity time control with which flat land is even in range. Its power before it is proportional to
+// G^2 / R^4, with G^2 ~ R^4 of the mapping beam and R^2 of cosecant_squared. The others have the law of clutter in the
+// beam's centre.
+double even_exponent(radar::BeamPattern pattern) {
+  switch (pattern) {
+    case radar::BeamPattern::mapping:
+      return 0.0;
+    case radar::BeamPattern::cosecant_squared:
+      return 2.0;
+    default:
+      return 3.0;
+  }
+}
+
+// Integral of the pattern from its centre to an angle below the centre (negative: above). For the cosecant patterns the
 // centre has the depression `centre_rad`.
 double integral_below(radar::BeamPattern pattern, double beamwidth_rad, double centre_rad, double below_rad) {
   switch (pattern) {
@@ -34,12 +48,16 @@ double integral_below(radar::BeamPattern pattern, double beamwidth_rad, double c
     case radar::BeamPattern::gaussian:
       return gaussian_integral(below_rad, beamwidth_rad);
     case radar::BeamPattern::cosecant_squared:
+    case radar::BeamPattern::mapping:
       break;
   }
   if (below_rad < 0.0) return gaussian_integral(below_rad, beamwidth_rad);
-  const double sine = std::sin(centre_rad);
-  const double lowest_rad = std::min(centre_rad + below_rad, std::numbers::pi - centre_rad);
-  return sine * std::cos(centre_rad) - sine * sine * std::cos(lowest_rad) / std::sin(lowest_rad);
+  const double sine2 = std::pow(std::sin(centre_rad), 2.0);
+  const double from = 1.0 / std::tan(centre_rad);
+  const double to = 1.0 / std::tan(std::min(centre_rad + below_rad, std::numbers::pi - centre_rad));
+  // Integrals of csc^2 and csc^4: -cot x, -cot x - cot^3 x / 3.
+  if (pattern == radar::BeamPattern::cosecant_squared) return sine2 * (from - to);
+  return sine2 * sine2 * (from - to + (from * from * from - to * to * to) / 3.0);
 }
 }  // namespace
 
@@ -51,7 +69,8 @@ Receivers::Receivers(const RadarParameters& parameters)
   receiver_.elevation_beamwidth_rad = parameters.elevation_beamwidth_deg * geo::kRadiansPerDegree;
   const double frequency_db = frequency_term_db(parameters.world.land, settings.frequency_ghz);
   receiver_.land_gamma = ratio(settings.land_gamma_db + frequency_db);
-  receiver_.stc_exponent = settings.stc_exponent;
+  receiver_.stc_exponent = std::isnan(settings.stc_exponent) ? even_exponent(parameters.beam) : settings.stc_exponent;
+  receiver_.automatic_gain = settings.automatic_gain;
   receiver_.noise = ratio(settings.noise_floor_db);
   receiver_.dynamic_range_db = settings.dynamic_range_db;
   receiver_.gain_step_db = settings.gain_step_db;
@@ -74,11 +93,14 @@ geo::Length Receivers::pulse_length(geo::Length range) const {
 Receiver Receivers::at(geo::Length range) const {
   Receiver receiver = receiver_;
   receiver.pulse_length_m = pulse_length(range).metres();
-  receiver.stc_range_m = range.metres();
+  receiver.range_m = range.metres();
+  const double bandwidth = pulse_length(kFullScaleRange).metres() / receiver.pulse_length_m;
+  receiver.noise *= bandwidth * bandwidth;  // of the noise, and of the full scale, which is proportional to the pulse
   const double sin_grazing = std::numbers::sqrt2 / 2.0;
-  const double cross_section_m2 = receiver.land_gamma * sin_grazing * range.metres() * receiver.azimuth_cell_rad *
-                                  illuminated_length_m(receiver, range.metres(), sin_grazing);
-  receiver.full_scale = returned_power(cross_section_m2, 1.0, range.metres());
+  const double at_m = kFullScaleRange.metres();
+  const double cross_section_m2 = receiver.land_gamma * sin_grazing * at_m * receiver.azimuth_cell_rad *
+                                  illuminated_length_m(receiver, at_m, sin_grazing);
+  receiver.full_scale = returned_power(cross_section_m2, 1.0, at_m);
   return receiver;
 }
 
@@ -104,12 +126,14 @@ double two_way_gain(radar::BeamPattern pattern, double beamwidth_rad, double ant
     case radar::BeamPattern::gaussian:
       return gaussian(below_rad, beamwidth_rad);
     case radar::BeamPattern::cosecant_squared:
+    case radar::BeamPattern::mapping:
       break;
   }
   if (below_rad < 0.0) return gaussian(below_rad, beamwidth_rad);
   const double centre_rad = std::max(-antenna_elevation_rad, 0.5 * beamwidth_rad);
   const double sine_ratio = std::sin(centre_rad) / std::max(std::sin(centre_rad + below_rad), std::sin(centre_rad));
-  return sine_ratio * sine_ratio;
+  const double square = sine_ratio * sine_ratio;
+  return pattern == radar::BeamPattern::mapping ? square * square : square;
 }
 
 double beam_integral(radar::BeamPattern pattern, double beamwidth_rad, double antenna_elevation_rad, double from_rad,
@@ -130,7 +154,28 @@ double azimuth_cell_rad(double beamwidth_rad) {
 }
 
 double received(const Receiver& receiver, double power, double slant_range_m) {
-  return power * std::pow(slant_range_m / receiver.stc_range_m, receiver.stc_exponent) / receiver.full_scale;
+  return power * time_control(receiver, slant_range_m) / receiver.full_scale;
+}
+
+double time_control(const Receiver& receiver, double slant_range_m) {
+  if (receiver.stc_exponent == 0.0) return 1.0;
+  return std::pow(slant_range_m / kFullScaleRange.metres(), receiver.stc_exponent);
+}
+
+double automatic_gain_db(const Receiver& receiver, radar::BeamPattern pattern, geo::AltitudeMsl altitude,
+                         geo::Angle antenna_elevation) {
+  if (!receiver.automatic_gain) return 0.0;
+  constexpr double kLowest_db = -30.0, kHighest_db = 40.0;
+  constexpr double kMinAltitude_m = 100.0;  // nearer the ground the level would go to 0
+  const double height_m = std::max(altitude.metres(), kMinAltitude_m);
+  const double range_m = std::hypot(0.5 * receiver.range_m, height_m);
+  const double sine = height_m / range_m;
+  const double cross_section_m2 =
+      receiver.land_gamma * sine * range_m * receiver.azimuth_cell_rad * illuminated_length_m(receiver, range_m, sine);
+  const double gain =
+      two_way_gain(pattern, receiver.elevation_beamwidth_rad, antenna_elevation.radians(), -std::asin(sine));
+  const double level = received(receiver, returned_power(cross_section_m2, gain, range_m), range_m);
+  return std::clamp(-kLandLevel_db - 10.0 * std::log10(std::max(level, 1e-30)), kLowest_db, kHighest_db);
 }
 
 double pulse_weight(double pulse_samples, double offset_samples) {
@@ -146,6 +191,10 @@ double pulse_weight(double pulse_samples, double offset_samples) {
 namespace {
 constexpr double kMaxPulse = 2.0 * static_cast<double>(PulseSmear::kMaxRadius) - 1.0;  // [samples]
 }  // namespace
+
+double automatic_gain_db(const Receiver& receiver) {
+  return receiver.automatic_gain ? -kNoiseLevel_db - 10.0 * std::log10(receiver.noise) : 0.0;
+}
 
 double point_smear_gain(double pulse_samples) {
   return pulse_samples > 0.0 ? std::min(pulse_samples, kMaxPulse) : 1.0;

@@ -20,12 +20,13 @@ struct Receiver {
   double azimuth_beamwidth_rad = 0.0;
   double azimuth_cell_rad = 0.0;  // width of the clutter cell: azimuth_cell_rad()
   double elevation_beamwidth_rad = 0.0;
-  double pulse_length_m = 0.0;    // c tau / 2, extent of a pulse in range; tau is its duration
-  double land_gamma = 0.0;        // sigma0 / sine of the grazing angle, of land without culture
-  double stc_exponent = 0.0;      // n: sensitivity time control multiplies power by (slant range / R0)^n
-  double stc_range_m = 0.0;       // R0, the selected range
-  double full_scale = 0.0;        // [1/m^2] value of returned_power() at full scale, see Receivers::at()
-  double noise = 0.0;             // power of thermal noise, full scale = 1
+  double pulse_length_m = 0.0;  // c tau / 2, extent of a pulse in range; tau is its duration
+  double land_gamma = 0.0;      // sigma0 / sine of the grazing angle, of land without culture
+  double range_m = 0.0;         // the selected range
+  double stc_exponent = 0.0;    // n: sensitivity time control multiplies power by (slant range / kFullScaleRange)^n
+  double full_scale = 0.0;      // [1/m^2] value of returned_power() at full scale, see Receivers::at()
+  double noise = 0.0;           // power of thermal noise before sensitivity time control, full scale = 1
+  bool automatic_gain = false;
   double dynamic_range_db = 0.0;  // black to white
   double gain_step_db = 0.0;
   int looks = 1;  // 1..kMaxLooks, independent looks averaged in a sample
@@ -33,6 +34,8 @@ struct Receiver {
 
 // c / 2 times 1 us: slant range per microsecond of echo delay, pulse length per microsecond of pulse duration.
 inline constexpr double kMetresPerMicrosecond = 149.896229;
+// Slant range at which full scale and noise are defined and sensitivity time control is 1: the middle range scale.
+inline constexpr geo::Length kFullScaleRange = geo::Length::nautical_miles(40.0);
 inline constexpr int kMaxLooks = 16;
 inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each lower step is gain_step_db less
 
@@ -41,8 +44,9 @@ class Receivers {
  public:
   explicit Receivers(const RadarParameters& parameters);
 
-  // Full scale is the return of land of the configured gamma at 45 degrees grazing, in the beam's centre, at the
-  // selected range. Brighter returns clip.
+  // Full scale is the return of land of the configured gamma at 45 degrees grazing, in the beam's centre, at
+  // kFullScaleRange, with the pulse of the selected range. Thermal noise is proportional to the bandwidth, 1 / tau, so
+  // the cross section that equals noise is proportional to R^4 / tau.
   Receiver at(geo::Length range) const;
 
   // Pulse length c tau / 2 of the smallest configured range that is not less than `range`. Beyond the last range the
@@ -65,8 +69,10 @@ double returned_power(double cross_section_m2, double two_way_gain, double slant
 // Two-way gain at an elevation, 1 in the beam's centre. `antenna_elevation_rad` is the elevation of the centre. delta
 // >= 0 is the angle off the centre, upwards or downwards; theta is the beamwidth.
 // gaussian: exp(-5.545 (delta / theta)^2). hard_edge: 1 within half a beamwidth, else 0.
-// cosecant_squared: Gaussian above the centre; (sin b / sin(b + delta))^2 below it.
+// mapping: Gaussian above the centre; (sin b / sin(b + delta))^4 below it: one-way csc^2, with which flat land of
+// constant gamma returns equal power from every range. cosecant_squared: the same with the exponent 2.
 // b is the depression of the centre, but at least half a beamwidth.
+// Source: Skolnik, "Introduction to Radar Systems", 3rd ed., 9.11: cosecant-squared antenna pattern.
 double two_way_gain(radar::BeamPattern pattern, double beamwidth_rad, double antenna_elevation_rad,
                     double elevation_rad);
 
@@ -84,6 +90,18 @@ double azimuth_cell_rad(double beamwidth_rad);
 
 // Power relative to full scale after sensitivity time control. `power` is a result of returned_power().
 double received(const Receiver& receiver, double power, double slant_range_m);
+
+// Sensitivity time control: factor on everything that is received at a slant range, noise and jamming included.
+double time_control(const Receiver& receiver, double slant_range_m);
+
+// Automatic gain [dB]: with it, level land of the configured gamma at half the selected range is kLandLevel_db below
+// white from every altitude. Limited to [-30, 40]. 0 if it is switched off.
+inline constexpr double kLandLevel_db = 20.0;
+double automatic_gain_db(const Receiver& receiver, radar::BeamPattern pattern, geo::AltitudeMsl altitude,
+                         geo::Angle antenna_elevation);
+// The same without returns of ground: thermal noise is kNoiseLevel_db below white.
+inline constexpr double kNoiseLevel_db = 40.0;
+double automatic_gain_db(const Receiver& receiver);
 
 // Exponent of the two-way Gaussian, 8 ln 2: gain 1/4 (-6 dB two-way) at half a beamwidth from the centre.
 inline constexpr double kTwoWayExponent = 5.545;

@@ -73,6 +73,7 @@ struct PowerWindow {
   std::span<const float> centre;
   std::span<const float> after;
   double jamming = 0.0;  // power received by the centre sweep at every range; full scale = 1
+  double automatic_gain_db = 0.0;
 };
 
 // Weights of the azimuth smear over three sweeps. The sum is 1, which conserves power. Source: the 1996 report.

@@ -24,7 +24,10 @@ constexpr double kRounding = 1e-6;
 Beam::Beam(const physics::RadarParameters& parameters) : Beam(make_algorithm(parameters), parameters) {}
 
 Beam::Beam(std::unique_ptr<Algorithm> algorithm, const physics::RadarParameters& parameters)
-    : algorithm_(std::move(algorithm)), beamwidth_deg_(parameters.azimuth_beamwidth_deg) {
+    : algorithm_(std::move(algorithm)),
+      receivers_(parameters),
+      pattern_(parameters.beam),
+      beamwidth_deg_(parameters.azimuth_beamwidth_deg) {
   if (algorithm_->has_points()) points_.emplace(parameters);
   const int count = std::clamp(parameters.fidelity.sub_beams, 1, radar::kMaxSubBeams);
   // Rays fit into the circle, so their spacing is at most the bundle's width over their number.
@@ -42,6 +45,12 @@ void Beam::use_world(const physics::RadarParameters& parameters, const radar::Wo
   if (!changes.sea && !changes.rain) return;
   algorithm_->use_weather(parameters);
   for (Ray& ray : rays_) ray.current = false;
+}
+
+double Beam::automatic_gain_db(const physics::SweepGeometry& geometry, bool ground) const {
+  const physics::Receiver receiver = receivers_.at(geometry.range);
+  if (!ground) return physics::automatic_gain_db(receiver);
+  return physics::automatic_gain_db(receiver, pattern_, geometry.altitude, geometry.elevation);
 }
 
 void Beam::begin_pass() {

@@ -60,6 +60,8 @@ class Beam {
   std::size_t rays() const { return measured_; }
   // As Algorithm::lit(), of the ray nearest the beam's centre.
   void lit(std::span<std::uint8_t> mask) const;
+  // PowerWindow::automatic_gain_db of a sweep. `ground`: false if the sweep has no return of ground.
+  double automatic_gain_db(const physics::SweepGeometry& geometry, bool ground) const;
   // As Algorithm::form_video().
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                   std::span<std::uint8_t> video) {
@@ -93,6 +95,8 @@ class Beam {
 
   std::optional<PointReturn> points_;
   std::unique_ptr<Algorithm> algorithm_;
+  physics::Receivers receivers_;
+  radar::BeamPattern pattern_;
   double beamwidth_deg_;
   std::vector<Ray> rays_;     // kept; one if there are no sub-beams
   std::vector<Member> beam_;  // from left to right

@@ -45,9 +45,10 @@ class ElevationGain {
       case radar::BeamPattern::gaussian:
         return {gaussian(), one()};
       case radar::BeamPattern::cosecant_squared:
+      case radar::BeamPattern::mapping:
         break;
     }
-    return cosecant_squared();
+    return cosecant(beam == radar::BeamPattern::mapping);
   }
 
  private:
@@ -77,12 +78,17 @@ class ElevationGain {
   }
 
   // sin^2 b / sin^2(b + angle below the axis), where b is the depression of the antenna axis, but at least half a
-  // beamwidth (SweepConstants). Both sines are multiplied by the slant range.
-  HWY_INLINE Gain<Group> cosecant_squared() const {
+  // beamwidth (SweepConstants). Both sines are multiplied by the slant range. `twice`: the square of this ratio.
+  HWY_INLINE Gain<Group> cosecant(bool twice) const {
     const auto rise = mul(constant<Group>(c_.cos_centre_tilt), up_m_);
     const auto spread = max(mul_sub(constant<Group>(c_.sin_centre_tilt), out_m_, rise), zero());
     const auto numerator = mul(constant<Group>(c_.sin_centre * c_.sin_centre), slant_square_);
-    const Gain<Group> gain{numerator, max(mul(spread, spread), numerator)};
+    Gain<Group> gain{numerator, max(mul(spread, spread), numerator)};
+    if (twice) {
+      // As a ratio, because the fourth power of a range exceeds the range of a float.
+      const auto ratio = div(gain.numerator, gain.denominator);
+      gain = {mul(ratio, ratio), one()};
+    }
     // Most ground is below the antenna axis. The Gaussian is computed only if a lane is above the axis.
     const auto above = less(below_, zero());
     if (none(above)) return gain;

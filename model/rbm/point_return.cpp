@@ -61,7 +61,7 @@ bool PointReturn::may_return(const physics::SweepGeometry& geometry, const physi
 
 void PointReturn::add(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<const RayGround* const> rays, std::span<float> power) {
-  if (receiver_.stc_range_m != geometry.range.metres()) receiver_ = receivers_.at(geometry.range);
+  if (receiver_.range_m != geometry.range.metres()) receiver_ = receivers_.at(geometry.range);
   const double spacing_m = geometry.range.metres() / static_cast<double>(points_.size());
   const double pulse_samples = pulse_smear_ ? receiver_.pulse_length_m / spacing_m : 0.0;
   if (pulse_samples != smeared_samples_) {

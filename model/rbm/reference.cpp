@@ -253,7 +253,7 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
   const physics::NoiseState state = physics::make_noise_state(key);
   const double spacing_m = range.metres() / static_cast<double>(video.size());
   const float cells = physics::cells_per_sample(spacing_m, receiver.pulse_length_m);
-  const double gain_db = (gain - physics::kFullGain) * receiver.gain_step_db;
+  const double gain_db = (gain - physics::kFullGain) * receiver.gain_step_db + window.automatic_gain_db;
   for (std::size_t i = 0; i < video.size(); ++i) {
     double power = static_cast<double>(window.centre[i]);
     if (fidelity_.azimuth_smear) {
@@ -261,8 +261,9 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
               physics::kAzimuthWeights[1] * power + physics::kAzimuthWeights[2] * static_cast<double>(window.after[i]);
     }
     // Clutter, thermal noise and jamming add as voltages of random phase. So their mean powers add, and one speckle
-    // applies to the sum.
-    double total = power + receiver.noise + window.jamming;
+    // applies to the sum. Sensitivity time control acts on all of them, by the time of arrival.
+    const double range_m = (static_cast<double>(i) + 0.5) * spacing_m;
+    double total = power + physics::time_control(receiver, range_m) * (receiver.noise + window.jamming);
     if (fidelity_.noise) {
       total *= speckle(state, physics::resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
     }

@@ -56,6 +56,7 @@ Standard::Standard(const physics::RadarParameters& parameters)
       power_(count_, 0.0F),
       power_per_gamma_(count_, 0.0F),
       variate_(count_, 1.0F),
+      time_control_(count_, 1.0F),
       cell_(count_ + terrain::kRunSlack) {}
 
 void Standard::use_weather(const physics::RadarParameters& parameters) {
@@ -166,7 +167,7 @@ void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::E
 }
 
 const physics::Receiver& Standard::receiver_at(geo::Length range) {
-  if (receiver_.stc_range_m != range.metres()) receiver_ = receivers_.at(range);
+  if (receiver_.range_m != range.metres()) receiver_ = receivers_.at(range);
   return receiver_;
 }
 
@@ -227,7 +228,7 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   const double elevation_rad = geometry.elevation.radians();
   const double beam_rad = receiver.elevation_beamwidth_rad;
   const double centre_rad = std::max(-elevation_rad, 0.5 * beam_rad);
-  const double range_m = receiver.stc_range_m;
+  const double range_m = physics::kFullScaleRange.metres();
   simd::SweepConstants c;
   c.altitude_m = static_cast<float>(geometry.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
@@ -255,6 +256,17 @@ void Standard::use_cells(float cells_per_sample) {
     cell_[i] = static_cast<std::int32_t>(physics::resolution_cell(static_cast<std::uint32_t>(i), cells_per_sample));
 }
 
+// Sensitivity time control of thermal noise and jamming, by sample.
+const float* Standard::time_control(const physics::Receiver& receiver) {
+  if (receiver.range_m == controlled_range_m_) return time_control_.data();
+  controlled_range_m_ = receiver.range_m;
+  const double spacing_m = receiver.range_m / static_cast<double>(count_);
+  for (std::size_t i = 0; i < count_; ++i)
+    time_control_.data()[i] =
+        static_cast<float>(physics::time_control(receiver, (static_cast<double>(i) + 0.5) * spacing_m));
+  return time_control_.data();
+}
+
 void Standard::form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                           std::span<std::uint8_t> video) {
   const physics::Receiver& receiver = receiver_at(range);
@@ -271,7 +283,8 @@ void Standard::form_video(const physics::PowerWindow& window, geo::Length range,
   inputs.after = window.after.data();
   inputs.weights = weights.data();
   inputs.noise = static_cast<float>(receiver.noise + window.jamming);
-  inputs.gain_db = static_cast<float>((gain - physics::kFullGain) * receiver.gain_step_db);
+  if (receiver.stc_exponent != 0.0) inputs.time_control = time_control(receiver);
+  inputs.gain_db = static_cast<float>((gain - physics::kFullGain) * receiver.gain_step_db + window.automatic_gain_db);
   inputs.dynamic_range_db = static_cast<float>(receiver.dynamic_range_db);
   if (fidelity.noise) {
     use_cells(physics::cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m));

@@ -62,6 +62,7 @@ class Standard : public Algorithm {
                                        const physics::Receiver& receiver) const;
 
   const physics::Receiver& receiver_at(geo::Length range);
+  const float* time_control(const physics::Receiver& receiver);
   void use_cells(float cells_per_sample);
 
   radar::Fidelity fidelity_;
@@ -77,10 +78,11 @@ class Standard : public Algorithm {
   std::size_t holes_ = 0;    // number of samples nearest the aircraft with a slant range too short to meet the ground
   bool has_crests_ = false;  // crest_ is that of the sweep
   bool has_peaks_ = false;   // peak_ is that of the sweep
-  double spaced_range_m_ = 0.0;     // [m] range for which distance_m_ was computed; 0: none
-  double smeared_samples_ = -1.0;   // pulse length [samples] of smear_weights_; -1: none
-  std::ptrdiff_t smear_reach_ = 0;  // [samples] smear_weights_ has offsets -smear_reach_ to smear_reach_
-  float cells_per_sample_ = 0.0F;   // value for which cell_ was computed; 0: none
+  double spaced_range_m_ = 0.0;      // [m] range for which distance_m_ was computed; 0: none
+  double controlled_range_m_ = 0.0;  // range for which time_control_ was computed; 0: none
+  double smeared_samples_ = -1.0;    // pulse length [samples] of smear_weights_; -1: none
+  std::ptrdiff_t smear_reach_ = 0;   // [samples] smear_weights_ has offsets -smear_reach_ to smear_reach_
+  float cells_per_sample_ = 0.0F;    // value for which cell_ was computed; 0: none
   std::array<float, 2 * physics::PulseSmear::kMaxRadius + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, midway_weight_, cell_inverse_;
@@ -89,7 +91,7 @@ class Standard : public Algorithm {
   RayCrests ray_crests_;
   Padded elevation_, water_, peak_, near_, near_back_, crest_;
   Padded tangent_, near_tangent_, before_, horizon_;
-  Padded power_, power_per_gamma_, variate_;
+  Padded power_, power_per_gamma_, variate_, time_control_;
   memory::CacheAlignedVector<std::int32_t> cell_;  // resolution cell of each sample
 };
 

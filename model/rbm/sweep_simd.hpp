@@ -3,8 +3,8 @@
 // Inputs: ground elevation, distance and crest of each sample; constants of the sweep; ground reflectivity.
 // Outputs: horizon and other tangents of elevation angles at the aircraft, positive above the horizontal; power (full
 // scale = 1).
-// Sensitivity time control multiplies power by (slant range / R0)^n. R0 is the selected range.
-// The csc^2 pattern (cosecant squared) is an elevation pattern of the antenna, see model/physics/receiver.hpp.
+// Sensitivity time control multiplies power by (slant range / R0)^n. R0 is physics::kFullScaleRange.
+// The cosecant patterns are elevation patterns of the antenna, see model/physics/receiver.hpp.
 // Threads: pure functions. The instruction set is chosen at run time. All instruction sets give results equal bit by
 // bit. All arrays of samples have kPad readable and writable entries before the first and after the last sample.
 // Exceptions: the results of smear() and weighted_sum(); the arrays of SweepInputs::ground (clutter_simd.hpp).
@@ -36,7 +36,7 @@ struct SweepConstants {
   float range_power = 0.0F;    // exponent of the sensitivity time control, minus 3
   float sin_elevation = 0.0F;  // sine of the antenna elevation, positive above the horizontal
   float cos_elevation = 1.0F;
-  float sin_centre = 0.0F;       // sin b, of the csc^2 pattern; b is the antenna depression, at least theta_el / 2
+  float sin_centre = 0.0F;       // sin b, of the cosecant patterns; b is the antenna depression, at least theta_el / 2
   float sin_centre_tilt = 0.0F;  // sin(b + antenna elevation)
   float cos_centre_tilt = 1.0F;  // cos(b + antenna elevation)
   float gaussian = 0.0F;         // [1/rad^2] 8 / theta_el^2; two-way gain 2^(-gaussian x^2), x: elevation off the axis

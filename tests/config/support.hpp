@@ -44,8 +44,8 @@ inline auto fields(const radar::Fidelity& fidelity) {
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {
-  const auto& [frequency, stc, dynamic, step, floor, land, looks] = receiver;
-  return std::tuple(frequency, stc, dynamic, step, floor, land, looks);
+  const auto& [frequency, stc, automatic, dynamic, step, floor, land, looks] = receiver;
+  return std::tuple(frequency, std::isnan(stc) ? -1.0 : stc, automatic, dynamic, step, floor, land, looks);
 }
 
 inline auto fields(const radar::HighResolutionConfiguration& map) {

@@ -19,7 +19,7 @@ namespace yars::test {
 inline constexpr radar::Algorithm kAlgorithms[] = {radar::Algorithm::standard, radar::Algorithm::reference,
                                                    radar::Algorithm::report_1996};
 inline constexpr radar::BeamPattern kBeams[] = {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian,
-                                                radar::BeamPattern::cosecant_squared};
+                                                radar::BeamPattern::cosecant_squared, radar::BeamPattern::mapping};
 inline constexpr double kVoid_m = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kIslandHeight_m = 500.0;
 

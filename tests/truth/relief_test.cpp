@@ -64,9 +64,12 @@ class Posts {
   const std::vector<std::uint8_t>& cell_at(int south, int west) {
     const auto [found, is_new] = cells_.try_emplace({south, west});
     if (is_new) {
-      char name[16];
-      std::snprintf(name, sizeof name, "%c%02d%c%03d.hgt", south < 0 ? 'S' : 'N', std::abs(south), west < 0 ? 'W' : 'E',
-                    std::abs(west));
+      const auto digits = [](int degrees, std::size_t count) {
+        const std::string text = std::to_string(std::abs(degrees));
+        return std::string(count - text.size(), '0') + text;
+      };
+      const std::string name =
+          (south < 0 ? "S" : "N") + digits(south, 2) + (west < 0 ? "W" : "E") + digits(west, 3) + ".hgt";
       std::ifstream file(folder_ / name, std::ios::binary);
       found->second.assign(std::istreambuf_iterator<char>(file), {});
     }
@@ -82,7 +85,7 @@ struct View {
 };
 
 // Sum of gamma theta r^2 dtheta over the visible ground, as power of the radar equation with a sensitivity time control
-// of (r / range)^3, per sample; without full scale.
+// of (r / 40 NM)^3, per sample; without full scale.
 double closed_sum(Posts& posts, const View& view, double pulse_m, double theta_rad, double samples) {
   const GeographicLib::Geodesic& earth = GeographicLib::Geodesic::WGS84();
   const double a = 6378137.0, e2 = 0.00669437999014, sine = std::sin(view.latitude_deg * kRadians);
@@ -91,7 +94,7 @@ double closed_sum(Posts& posts, const View& view, double pulse_m, double theta_r
   const double north = std::cos(view.azimuth_deg * kRadians), east = std::sin(view.azimuth_deg * kRadians);
   const double radius_m = 4.0 / 3.0 / (north * north / meridian + east * east / normal);
   double horizon = -1e9, before = kVoid, sum = 0.0;
-  constexpr double kStep_m = 9.0;
+  constexpr double kStep_m = 9.0, kFullScale_m = 40.0 * 1852.0;
   for (double d = kStep_m; d <= view.range_m; d += kStep_m) {
     double latitude_deg, longitude_deg;
     earth.Direct(view.latitude_deg, view.longitude_deg, view.azimuth_deg, d, latitude_deg, longitude_deg);
@@ -105,7 +108,7 @@ double closed_sum(Posts& posts, const View& view, double pulse_m, double theta_r
       const double cosine = std::cos(std::atan2(-up, out) - angle);  // of the grazing angle on level ground
       if (!std::isnan(before) && d > 2.0 * view.altitude_m)
         sum += land * theta_rad * r * r * (std::atan(tangent) - std::atan(horizon)) / (view.range_m / samples) *
-               pulse_m / cosine / (r * view.range_m * view.range_m * view.range_m);
+               pulse_m / cosine / (r * kFullScale_m * kFullScale_m * kFullScale_m);
       horizon = tangent;
     }
     before = h;

@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongValue{"( Noise :seed -1 )", "text.guf:1:15: expected a whole number in [0, 9007199254740992] for :seed"},
         WrongValue{"( Fidelity :noise 1 )", "text.guf:1:19: expected true or false for :noise, found the number 1"},
         WrongValue{"( Fidelity :beam wide )",
-                   "text.guf:1:18: expected one of hard-edge, gaussian, cosecant-squared for :beam, found the "
+                   "text.guf:1:18: expected one of hard-edge, gaussian, cosecant-squared, mapping for :beam, found the "
                    "identifier wide"},
         WrongValue{"( Apg70 :name 70 )", "text.guf:1:15: expected a string for :name, found the number 70"},
         WrongValue{"( Terrain :directory true )",

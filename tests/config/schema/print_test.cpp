@@ -94,8 +94,8 @@ class RandomConfiguration {
     if (coin()) made.view.arc_spacing_nm = ascending(1.0, 40.0);
     made.view.colors = {radar::ColorPreset(random_() % 3), color(), color(), color()};
     made.fidelity = fidelity();
-    made.receiver = {number(1, 40),   number(0, 6),    number(10, 120),        number(0, 40),
-                     number(-120, 0), number(-60, 20), 1 + int(random_() % 16)};
+    made.receiver = {number(1, 40), number(0, 6),    coin(),          number(10, 120),
+                     number(0, 40), number(-120, 0), number(-60, 20), 1 + int(random_() % 16)};
     made.terrain = {coin() ? "" : "/data/de\"d", coin()};
     made.seed = random_() >> 11U;  // below 2^53, the range of the slot
     made.magnetic_variation_deg = number(-180, 180);

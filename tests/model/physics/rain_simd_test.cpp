@@ -134,8 +134,8 @@ radar::RadarConfiguration stacked() {
 }
 
 TEST(RainSamples, AreWithinTheirBoundsForEveryBeam) {
-  for (const auto pattern :
-       {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian, radar::BeamPattern::cosecant_squared})
+  for (const auto pattern : {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian,
+                             radar::BeamPattern::cosecant_squared, radar::BeamPattern::mapping})
     for (const auto& [altitude_m, elevation_deg] :
          {std::tuple{200.0, 5.0}, {1000.0, 0.0}, {4500.0, -3.0}, {12000.0, -20.0}, {4500.0, -60.0}, {3000.0, 85.0}}) {
       SCOPED_TRACE(testing::Message() << static_cast<int>(pattern) << ", " << altitude_m << " m");

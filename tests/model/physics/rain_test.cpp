@@ -85,8 +85,8 @@ TEST(StretchBelow, OverARoundEarthIsWhereTheRayIsBelow) {
 
 TEST(BeamIntegral, EqualsTheSumOverThePattern) {
   const double theta = 2.5 * geo::kRadiansPerDegree;
-  for (const auto pattern :
-       {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian, radar::BeamPattern::cosecant_squared}) {
+  for (const auto pattern : {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian,
+                             radar::BeamPattern::cosecant_squared, radar::BeamPattern::mapping}) {
     for (const double antenna_deg : {-8.0, -1.0, 3.0}) {
       const double antenna = antenna_deg * geo::kRadiansPerDegree;
       const double step = 1e-5;

