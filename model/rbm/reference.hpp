@@ -1,7 +1,8 @@
 // Reference algorithm of the real beam map: double precision, a walk over all ground of the ray (physics::GroundWalk)
-// on the exact geodesic, whatever the number of samples. Tests compare the faster algorithms with this one. `yars
-// trade` measures errors against it. tests/truth compares it with numbers from outside. Accuracy: double precision;
-// power is returned as float (6e-8 relative). Source: docs/radar_maths.md.
+// on the exact geodesic, whatever the number of samples. Tests and `yars trade` compare the faster algorithms with it.
+// tests/truth compares it with numbers from outside.
+// Accuracy: double precision; power is returned as float (6e-8 relative).
+// Source: docs/radar_maths.md.
 #pragma once
 
 #include <vector>

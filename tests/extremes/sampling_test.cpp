@@ -80,7 +80,9 @@ TEST(ExtremeSampling, TheKernelMakesSweepsOf1To3And4096SamplesAt0Point1And320Nau
         // Level land 4472 m below the aircraft is lit by a beam 180 degrees wide. The middle of 320 NM is beyond the
         // horizon.
         const auto& last = sweeps.back();
-        if (range_nm < 1.0) EXPECT_GT(*std::max_element(last.video, last.video + last.samples), 0);
+        if (range_nm < 1.0) {
+          EXPECT_GT(*std::max_element(last.video, last.video + last.samples), 0);
+        }
       });
     }
   }
