@@ -18,6 +18,7 @@
 #endif
 #include "lib/file/output_file.hpp"
 #include "lib/file/text_file.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
 
@@ -93,7 +94,7 @@ void print(const ConfigOptions& options, const CommonOptions& common) {
   const auto configuration = loaded(chosen_file(options, common));
   const auto text = options.defaults ? config::print_explained(configuration.radar)
                                      : config::print_configuration(configuration.radar);
-  std::fputs(text.c_str(), stdout);
+  std::printf("; Radar model %u.\n%s", radar::kModelNumber, text.c_str());
   if (configuration.network) std::fputs(config::print_network(*configuration.network).c_str(), stdout);
 }
 

@@ -95,8 +95,9 @@ void Hosts::report_differences(Host& host, std::int64_t now_ns) {
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(said.layout_hash));
   host.other_layout = said.layout_hash != databuffer::kLayoutIdentity.hash || said.protocol != yars_net_kProtocol;
   report(host, databuffer::kHostOtherLayout, host.other_layout,
-         other + " has another layout of the records (" + std::string(text::text_of(said.version)) + ", layout " +
-             hash + "): nothing is exchanged with it; install the same version on both");
+         other + " has another layout of the records or another radar model (" +
+             std::string(text::text_of(said.version)) + ", layout " + hash +
+             "): nothing is exchanged with it; install the same version on both");
   const auto differ = [](std::uint64_t mine, std::uint64_t theirs) {
     return mine != 0 && theirs != 0 && mine != theirs;
   };

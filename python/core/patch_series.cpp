@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "lib/values/fields.hpp"
 #include "python/core/results.hpp"
 #include "radar/limits.hpp"
@@ -354,6 +355,7 @@ py::dict patch_series(const yars::Radar& radar, PatchPool& pool, const SeriesReq
 void add_series(py::module_& module) {
   module.attr("PATCH_ORDER") = order_type();
   module.attr("MOVER") = mover_type();
+  module.attr("MODEL") = radar::kModelNumber;
 }
 
 }  // namespace yars::python

@@ -14,6 +14,7 @@ ScanTradeRequest_fields: _Fields
 MapTradeRequest_fields: _Fields
 PATCH_ORDER: np.dtype[np.void]
 MOVER: np.dtype[np.void]
+MODEL: int  # number of the radar model
 
 class _Request:
     def __init__(self, fields: dict[str, Any]) -> None: ...

@@ -18,8 +18,9 @@ namespace yars::recording {
 namespace {
 
 constexpr std::array<char, 8> kFileMagic{'Y', 'A', 'R', 'S', 'T', 'L', 'O', 'G'};
-constexpr std::uint32_t kVersion = 3;
-constexpr std::uint32_t kMaxKinds = 63;  // numbers 1 to 63
+constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersionWithoutModel = 3;  // its recordings were made by model 1
+constexpr std::uint32_t kMaxKinds = 63;            // numbers 1 to 63
 
 struct Preamble {
   std::array<char, 8> magic;
@@ -35,6 +36,12 @@ struct KindEntry {
   std::uint32_t bytes;
 };
 static_assert(sizeof(Preamble) == 24 && sizeof(KindEntry) == 8);
+
+// After the preamble, from format version 4 on.
+struct ModelEntry {
+  std::uint32_t model, reserved;
+};
+static_assert(sizeof(ModelEntry) == 8);
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {
@@ -85,6 +92,7 @@ std::vector<std::byte> bytes_of(const RecordingHeader& header) {
   append(bytes, Preamble{kFileMagic, kVersion, static_cast<std::uint32_t>(recorded_kinds().size()),
                          static_cast<std::uint32_t>(header.configuration.size()),
                          static_cast<std::uint32_t>(header.terrain.size())});
+  append(bytes, ModelEntry{header.model, 0});
   for (const RecordedKind& kind : recorded_kinds()) append(bytes, KindEntry{kind.number, 0, kind.version, kind.bytes});
   append(bytes, header.configuration);
   append(bytes, header.terrain);
@@ -102,9 +110,15 @@ error::Expected<RecordingHeader> read_header(std::istream& file, const std::stri
   std::memcpy(&preamble, bytes.data(), sizeof preamble);
   if (!complete || preamble.magic != kFileMagic)
     return error::fail(file_name, "a recording made by yars record", "another kind of file");
-  if (preamble.version != kVersion)
+  if (preamble.version != kVersion && preamble.version != kVersionWithoutModel)
     return error::fail(file_name, "version " + std::to_string(kVersion) + " of the recording format",
                        std::to_string(preamble.version), "replay it with the release that recorded it");
+  ModelEntry made_by{1, 0};
+  if (preamble.version == kVersion) {
+    if (!read_more(file, sizeof made_by, bytes)) return damaged("a file cut short within the header");
+    std::memcpy(&made_by, bytes.data() + sizeof preamble, sizeof made_by);
+  }
+  const std::size_t fixed_bytes = bytes.size();
   if (preamble.kinds > kMaxKinds || preamble.configuration_bytes > kMaxHeaderText ||
       preamble.terrain_bytes > kMaxHeaderText)
     return damaged("a header with longer paths or more kinds of records than allowed");
@@ -114,11 +128,18 @@ error::Expected<RecordingHeader> read_header(std::istream& file, const std::stri
       !file.read(reinterpret_cast<char*>(&checksum), sizeof checksum))
     return damaged("a file cut short within the header");
   if (checksum != checksum_of(bytes)) return damaged("a wrong checksum");
-  if (auto same = check_kinds(std::span(bytes).subspan(sizeof preamble, kinds_bytes), file_name); !same)
+  if (auto same = check_kinds(std::span(bytes).subspan(fixed_bytes, kinds_bytes), file_name); !same)
     return tl::unexpected(same.error());
-  const auto* text = reinterpret_cast<const char*>(bytes.data()) + sizeof preamble + kinds_bytes;
+  const auto* text = reinterpret_cast<const char*>(bytes.data()) + fixed_bytes + kinds_bytes;
   return RecordingHeader{std::string(text, preamble.configuration_bytes),
-                         std::string(text + preamble.configuration_bytes, preamble.terrain_bytes)};
+                         std::string(text + preamble.configuration_bytes, preamble.terrain_bytes), made_by.model};
+}
+
+error::Expected<void> check_model(const RecordingHeader& header, const std::string& file_name) {
+  if (header.model == radar::kModelNumber) return {};
+  return error::fail(file_name, "a recording made by model " + std::to_string(radar::kModelNumber),
+                     "one made by model " + std::to_string(header.model),
+                     "play its video, or compare it with the release that recorded it");
 }
 
 namespace {

@@ -10,15 +10,20 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "radar/recording/block.hpp"
 
 namespace yars::recording {
 
 // Configuration and terrain of the recorded model. A replay needs the same configuration and terrain.
 struct RecordingHeader {
-  std::string configuration;  // path of the GUF file; empty = built-in configuration
-  std::string terrain;        // directory of cells; empty = the directory in the configuration
+  std::string configuration;                  // path of the GUF file; empty = built-in configuration
+  std::string terrain;                        // directory of cells; empty = the directory in the configuration
+  std::uint32_t model = radar::kModelNumber;  // of the radar that made the sweeps; format version 3 has model 1
 };
+
+// Error if the radar model of this build is another one: it makes other sweeps from the recorded ticks.
+error::Expected<void> check_model(const RecordingHeader& header, const std::string& file_name);
 
 inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] maximum length of a path
 

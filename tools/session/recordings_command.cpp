@@ -115,6 +115,7 @@ ordered_json description_of(RecordingReader& reader, const std::filesystem::path
   object["bytes"] = std::filesystem::file_size(file, code);
   object["configuration"] = reader.header().configuration;
   object["terrain"] = reader.header().terrain;
+  object["model"] = reader.header().model;
   object["source"] = flight_source_of(reader);
   object["sweeps"] = has<databuffer::Sweep>(reader);
   object["maps"] = has<recording::Patch>(reader);

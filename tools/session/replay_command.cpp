@@ -270,6 +270,7 @@ std::string cause_of_difference(const KernelRerun& run, const recording::Recordi
 }
 
 void compare(const CommonOptions& common, recording::RecordingReader& reader, const ReplayOptions& options) {
+  if (auto same = recording::check_model(reader.header(), options.file); !same) throw_failure(same.error());
   World world = open_world(common, reader.header(), options);
   KernelRerun run(world);
   while (auto entry = reader.next()) {

@@ -49,6 +49,11 @@ def version():
     return subprocess.run([command(), "--version"], capture_output=True, text=True, check=False).stdout.strip()
 
 
+def model():
+    """Number of the radar model: data of different models are not comparable."""
+    return _compiled("dataset").MODEL
+
+
 def limits_of(text):
     """Limits of a configuration in GUF text."""
     return Limits(**_compiled("dataset").make_radar("", b"", text, []).limits)

@@ -111,7 +111,8 @@ class Store:
         """Makes the folder and its general files, or checks that it belongs to this specification. A folder without any
         block takes another specification."""
         plan = self.plan
-        about = {"format": FORMAT, "yars": limits.version(), "fingerprint": self.mark, "inputs": self.inputs,
+        about = {"format": FORMAT, "yars": limits.version(), "model": limits.model(), "fingerprint": self.mark,
+                 "inputs": self.inputs,
                  "count": plan.count, "block": plan.block, "seed": plan.seed, "size": plan.size,
                  "arrays": list(plan.arrays), "files": plan.format, "hash": self.hash_name}
         try:
@@ -120,6 +121,10 @@ class Store:
             raise files.failure(self.folder, error, "a folder for --out") from None
         text = files.read(self.path("dataset.json"))
         there = _json_object(text)
+        made_by = there.get("model", 1) if there else about["model"]
+        if made_by != about["model"] and self.has_blocks():
+            raise DatasetError(f"{self.folder}: expected a data set of radar model {about['model']}, found one of model "
+                               f"{made_by}; choose another --out, or use YARS {there.get('yars')}")
         if there is not None and {**there, "yars": None} == {**about, "yars": None}:
             if there.get("yars") != about["yars"]:
                 warnings.warn(f"{self.folder}: begun by YARS {there.get('yars')}, this is {about['yars']}: "

@@ -51,6 +51,27 @@ TEST(Recording, ReadsBackEveryItemInOrder) {
   EXPECT_FALSE(reader->cut_short());
 }
 
+// Format version 3, of releases up to 0.4, has no model number.
+TEST(Recording, OfAnOlderModelIsReadAndIsNotComparable) {
+  std::vector<std::byte> bytes = bytes_of(RecordingHeader{"made.guf", "hills"});
+  constexpr std::size_t kVersion = 8, kModel = 24, kModelBytes = 8, kChecksumBytes = 4;
+  bytes[kVersion] = std::byte{3};
+  bytes.erase(bytes.begin() + kModel, bytes.begin() + kModel + kModelBytes);
+  bytes.resize(bytes.size() - kChecksumBytes);
+  const std::uint32_t checksum = checksum_of(bytes);
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  text.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+  std::istringstream file(text);
+  const auto header = read_header(file, "old.yars");
+  ASSERT_TRUE(header) << header.error().message();
+  EXPECT_EQ(header->configuration, "made.guf");
+  EXPECT_EQ(header->model, 1U);
+  const auto same = check_model(*header, "old.yars");
+  ASSERT_FALSE(same);
+  EXPECT_THAT(same.error().message(), ::testing::HasSubstr("one made by model 1"));
+  EXPECT_TRUE(check_model(RecordingHeader{}, "new.yars"));
+}
+
 TEST(Recording, WithoutItemsIsComplete) {
   auto reader = reader_of(recorded({}));
   ASSERT_TRUE(reader.has_value());
@@ -287,16 +308,17 @@ TEST(Recording, RefusesFilesOfAnotherKindOrVersion) {
   EXPECT_NE(message_of("a letter of some length, by a person").find("another kind of file"), std::string::npos);
   std::string other = recorded({});
   other[8] = 2;
-  EXPECT_NE(message_of(other).find("version 3"), std::string::npos) << message_of(other);
+  EXPECT_NE(message_of(other).find("version 4"), std::string::npos) << message_of(other);
   EXPECT_FALSE(RecordingReader::open("/nowhere/run.yars").has_value());
 }
 
 TEST(Recording, WithRecordsOfAnotherSizeIsRefusedByTheirName) {
   std::string bytes = recorded({});
   // Changes the size of the first kind, and corrects the header's checksum.
-  constexpr std::size_t kFirstKindBytes = 24 + 4;
+  constexpr std::size_t kKinds = 24 + 8;  // after preamble and model
+  constexpr std::size_t kFirstKindBytes = kKinds + 4;
   bytes[kFirstKindBytes] ^= 8;
-  const std::size_t header = 24 + 8 * recorded_kinds().size() + std::string("made.gufhills").size();
+  const std::size_t header = kKinds + 8 * recorded_kinds().size() + std::string("made.gufhills").size();
   const std::uint32_t checksum = checksum_of(std::as_bytes(std::span(bytes).first(header)));
   std::memcpy(bytes.data() + header, &checksum, sizeof checksum);
   const auto reader = reader_of(bytes);
