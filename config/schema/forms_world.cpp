@@ -240,16 +240,19 @@ FormSchema sea() {
 
 FormSchema rain() {
   FormSchema form = list_form<radar::RainCell>(
-      "cells", {number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
-                            "a of Z = a r^b, Z in mm^6/m^3, rain rate r in mm/h (Marshall and Palmer)"),
-                number_slot("reflectivityExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.reflectivity_exponent)},
-                            "b of Z = a r^b"),
-                number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
-                            "squared magnitude of the dielectric factor K; 0.93 for water, 0.2 for ice"),
-                number_slot("attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
-                            "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
-                number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
-                            "b of k r^b")});
+      "cells",
+      {number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
+                   "a of Z = a r^b, Z in mm^6/m^3, rain rate r in mm/h (Marshall and Palmer)"),
+       number_slot("reflectivityExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.reflectivity_exponent)},
+                   "b of Z = a r^b"),
+       number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
+                   "squared magnitude of the dielectric factor K; 0.93 for water, 0.2 for ice"),
+       number_slot(
+           "attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
+           "k of the attenuation k r^b, one way; left out: ITU-R P.838-3 at the radar's frequency and the polarization "
+           "of Sea"),
+       number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
+                   "b of k r^b; left out: as attenuationFactor")});
   form.purpose = "rain cells, and echo and attenuation of rain";
   return form;
 }

@@ -75,11 +75,12 @@ struct RainCell {
 
 struct RainConfiguration {
   // Reflectivity Z = a r^b [mm^6/m^3] and attenuation k r^b [dB/km, one way] at the rain rate r [mm/h].
-  double reflectivity_factor = 200.0;   // a of Z; Marshall and Palmer 1948
-  double reflectivity_exponent = 1.6;   // b of Z
-  double dielectric_factor = 0.93;      // |K|^2 of water
-  double attenuation_factor = 0.01018;  // k of the attenuation; ITU-R P.838-3 at 9.6 GHz, horizontal
-  double attenuation_exponent = 1.278;  // b of the attenuation; ITU-R P.838-3 at 9.6 GHz, horizontal
+  double reflectivity_factor = 200.0;  // a of Z; Marshall and Palmer 1948
+  double reflectivity_exponent = 1.6;  // b of Z
+  double dielectric_factor = 0.93;     // |K|^2 of water
+  // k and b of the attenuation; kNotGiven: by ITU-R P.838-3 at the radar's frequency and SeaConfiguration::polarization
+  double attenuation_factor = kNotGiven;
+  double attenuation_exponent = kNotGiven;
   std::vector<RainCell> cells;
 };
 

@@ -157,9 +157,9 @@ inline auto fields(const radar::WorldConfiguration& world) {
       std::apply([](const auto&... list) { return std::tuple(fields_of_all(list)...); }, radar::lists_of(world));
   return std::tuple(std::tuple(slope, reference, street, land_texture, fields_of_all(materials)),
                     std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor, sea_texture),
-                    std::tuple(a, b, dielectric, k, exponent), std::tuple(gases, temperature, pressure, water),
-                    std::tuple(radar_power, sidelobes), lists, fields_of_all(world.scenes),
-                    std::tuple(beacon_code, fields_of_all(beacons)));
+                    std::tuple(a, b, dielectric, comparable(k), comparable(exponent)),
+                    std::tuple(gases, temperature, pressure, water), std::tuple(radar_power, sidelobes), lists,
+                    fields_of_all(world.scenes), std::tuple(beacon_code, fields_of_all(beacons)));
 }
 
 inline auto fields(const radar::WindowLimits& limits) {

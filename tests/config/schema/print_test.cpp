@@ -198,7 +198,12 @@ class RandomConfiguration {
                 five_numbers(),
                 number(0, 2),
                 number(0, 100)};
-    made.rain = {number(0, 2000), number(0.5, 3), number(0, 1), number(0, 10), number(0.5, 3), {}};
+    made.rain = {number(0, 2000),
+                 number(0.5, 3),
+                 number(0, 1),
+                 coin() ? kUnknown : number(0, 10),
+                 coin() ? kUnknown : number(0.5, 3),
+                 {}};
     made.jamming = {number(0, 120), number(-80, 0), {}};
     for (std::size_t i = random_() % 4; i > 0; --i) {
       made.rain.cells.push_back(

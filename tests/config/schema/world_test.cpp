@@ -63,6 +63,13 @@ TEST(Rain, AFormWithoutCellsKeepsTheEarlierCells) {
   EXPECT_EQ(rain.reflectivity_factor, 300.0);
 }
 
+TEST(Rain, HasNoFactorsOfAttenuationUnlessTheyAreGiven) {
+  EXPECT_TRUE(std::isnan(loaded("( Rain )").radar.world.rain.attenuation_factor));
+  const auto rain = loaded("( Rain :attenuationFactor 0.01018 :attenuationExponent 1.278 )").radar.world.rain;
+  EXPECT_EQ(rain.attenuation_factor, 0.01018);
+  EXPECT_EQ(rain.attenuation_exponent, 1.278);
+}
+
 TEST(ListsOfForms, AddToTheEarlierOnesWithTheirSlotMore) {
   const auto configuration = loaded(
       "( Rain `( ( RainCell 37.5 -123 ) ) ) ( Rain :moreCells `( ( RainCell 38 -122 ) ) )"
