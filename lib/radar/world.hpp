@@ -61,6 +61,8 @@ struct SeaConfiguration {
   std::vector<double> vertical{-50.796, 25.93, 0.7093, 21.588, 0.00211};
   double wind_factor = 0.2;  // factor of the upwind term of the GIT sea clutter model; 0 = no effect of wind direction
   double texture = 4.0;      // shape parameter of the gamma-distributed texture; 0 = none
+  // nathanson: with a correction fitted to Nathanson's table at 9.3 GHz, for 8 to 12 GHz (docs/spec/physics.md#sea)
+  SeaModel model = SeaModel::nrl;
 };
 
 // Rain cell (shower): a vertical cylinder. Return and attenuation of the rain are greatest at the axis. They are zero

@@ -102,6 +102,7 @@ class RandomConfiguration {
     made.navigation = navigation();
     made.route = route();
     made.world = world();
+    if (made.world.sea.model == radar::SeaModel::nathanson) made.receiver.frequency_ghz = number(8, 12);
     return made;
   }
 
@@ -197,7 +198,8 @@ class RandomConfiguration {
                 five_numbers(),
                 five_numbers(),
                 number(0, 2),
-                number(0, 100)};
+                number(0, 100),
+                radar::SeaModel(random_() % 2)};
     made.rain = {number(0, 2000),
                  number(0.5, 3),
                  number(0, 1),
