@@ -121,7 +121,7 @@ Texels texels_for(double pixel_m) {
   Texels texels{kFinestTexel_m, kFinestEdge};
   while (texels.width_m < 0.5 * pixel_m && texels.edge > simd::kDetailBlock) {
     texels.width_m *= 2.0;
-    if (texels.width_m * texels.edge > kWidestTable_m) texels.edge /= 2;
+    if (texels.edge == kFinestEdge || texels.width_m * texels.edge > kWidestTable_m) texels.edge /= 2;
   }
   return texels;
 }
