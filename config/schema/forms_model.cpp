@@ -385,7 +385,10 @@ std::vector<FormSchema> model_forms() {
            .purpose = "speed against accuracy",
            .slots = with_base(sweep_fidelity_slots(), map_fidelity_slots())},
           {.name = "HighResolution", .purpose = "high resolution maps", .slots = high_resolution_slots()},
-          {.name = "Receiver", .purpose = "receiver and ground return", .slots = receiver_slots()},
+          {.name = "Receiver",
+           .purpose = "receiver and ground return",
+           .slots = receiver_slots(),
+           .check_at_end = check_sea_model},
           {.name = "Noise", .purpose = "thermal noise and speckle", .slots = noise_slots()}};
 }
 

@@ -8,6 +8,7 @@
 #include "config/guf/parser.hpp"
 #include "config/schema/list_forms.hpp"
 #include "config/schema/schema.hpp"
+#include "lib/radar/sensor.hpp"
 #include "lib/radar/world.hpp"
 
 namespace yars::config {
@@ -134,6 +135,7 @@ namespace {
 
 using radar::kNotGiven;
 
+constexpr std::array<std::string_view, 2> kSeaModels{"nrl", "nathanson"};            // order of radar::SeaModel
 constexpr std::array<std::string_view, 2> kPolarizations{"horizontal", "vertical"};  // order of radar::Polarization
 
 FormSchema land() {
@@ -216,40 +218,53 @@ SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(Co
 }
 
 FormSchema sea() {
-  return {.name = "Sea",
-          .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
-          .slots = {value_slot("state", values::WorldState::sea_state, YARS_FIELD(radar.world.sea.state)),
-                    value_slot("windSpeed", values::WorldState::wind_speed, YARS_FIELD(radar.world.sea.wind_speed_mps)),
-                    value_slot("windFrom", values::WorldState::wind_from, YARS_FIELD(radar.world.sea.wind_from_deg)),
-                    {.name = "polarization",
-                     .binding = ChoiceSlot{
-                         kPolarizations,
-                         [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
-                         [](ConfigurationBuilder& builder, int index) {
-                           builder.radar.world.sea.polarization = radar::Polarization(index);
-                         }},
-                     .purpose = "polarization of the radar"},
-                    sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
-                    sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
-                    number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
-                                "wind direction factor; 0.2: at small grazing angles 3 dB more upwind and 3 dB less "
-                                "downwind at X band; 0: no effect"),
-                    number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
-                                "shape parameter of the sea's texture; small = spiky, 0 = none")}};
+  return {
+      .name = "Sea",
+      .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
+      .slots = {value_slot("state", values::WorldState::sea_state, YARS_FIELD(radar.world.sea.state)),
+                value_slot("windSpeed", values::WorldState::wind_speed, YARS_FIELD(radar.world.sea.wind_speed_mps)),
+                value_slot("windFrom", values::WorldState::wind_from, YARS_FIELD(radar.world.sea.wind_from_deg)),
+                {.name = "polarization",
+                 .binding = ChoiceSlot{
+                     kPolarizations,
+                     [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
+                     [](ConfigurationBuilder& builder, int index) {
+                       builder.radar.world.sea.polarization = radar::Polarization(index);
+                     }},
+                 .purpose = "polarization of the radar"},
+                sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
+                sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
+                number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
+                            "wind direction factor; 0.2: at small grazing angles 3 dB more upwind and 3 dB less "
+                            "downwind at X band; 0: no effect"),
+                number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
+                            "shape parameter of the sea's texture; small = spiky, 0 = none"),
+                {.name = "model",
+                 .binding = ChoiceSlot{
+                     kSeaModels, [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.model); },
+                     [](ConfigurationBuilder& builder, int index) {
+                       builder.radar.world.sea.model = radar::SeaModel(index);
+                     }},
+                 .purpose = "nathanson: the NRL model with a correction fitted to Nathanson's table of X band, for "
+                            "frequencies of Receiver from 8 to 12 GHz"}},
+      .check_at_end = check_sea_model};
 }
 
 FormSchema rain() {
   FormSchema form = list_form<radar::RainCell>(
-      "cells", {number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
-                            "a of Z = a r^b, Z in mm^6/m^3, rain rate r in mm/h (Marshall and Palmer)"),
-                number_slot("reflectivityExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.reflectivity_exponent)},
-                            "b of Z = a r^b"),
-                number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
-                            "squared magnitude of the dielectric factor K; 0.93 for water, 0.2 for ice"),
-                number_slot("attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
-                            "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
-                number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
-                            "b of k r^b")});
+      "cells",
+      {number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
+                   "a of Z = a r^b, Z in mm^6/m^3, rain rate r in mm/h (Marshall and Palmer)"),
+       number_slot("reflectivityExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.reflectivity_exponent)},
+                   "b of Z = a r^b"),
+       number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
+                   "squared magnitude of the dielectric factor K; 0.93 for water, 0.2 for ice"),
+       number_slot(
+           "attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
+           "k of the attenuation k r^b, one way; left out: ITU-R P.838-3 at the radar's frequency and the polarization "
+           "of Sea"),
+       number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
+                   "b of k r^b; left out: as attenuationFactor")});
   form.purpose = "rain cells, and echo and attenuation of rain";
   return form;
 }
@@ -269,6 +284,14 @@ FormSchema atmosphere() {
 }
 
 }  // namespace
+
+std::optional<ConstraintViolation> check_sea_model(const ConfigurationBuilder& builder) {
+  const double frequency_ghz = builder.radar.receiver.frequency_ghz;
+  const bool x_band = frequency_ghz >= 8.0 && frequency_ghz <= 12.0;
+  if (x_band || builder.radar.world.sea.model != radar::SeaModel::nathanson) return std::nullopt;
+  return ConstraintViolation{"", "a frequency of Receiver from 8 to 12 GHz for :model nathanson of Sea",
+                             number_text(frequency_ghz)};
+}
 
 std::vector<FormSchema> world_forms() {
   return {land(),

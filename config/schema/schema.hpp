@@ -286,6 +286,9 @@ std::vector<FormSchema> network_forms();     // Network
 // Rule: WindowLimits lists every window of SarMode, with a minimum and a maximum cursor range.
 std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& builder);
 
+// Rule: the frequency of Receiver is within X band if the model of Sea is fitted to X band.
+std::optional<ConstraintViolation> check_sea_model(const ConfigurationBuilder& builder);
+
 // Rule: latitude and longitude are given.
 std::optional<ConstraintViolation> check_coordinates(geo::GeoPoint position);
 // Rules of an entry of a list: there are fewer than `most` so far, and it has coordinates.

@@ -58,6 +58,7 @@ enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };
 enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_squared = 2, mapping = 3 };
 enum class Interpolation : std::uint8_t { nearest = 0, bilinear = 1, cubic = 2 };
 enum class Algorithm : std::uint8_t { standard = 0, reference = 1, report_1996 = 2 };
+enum class SeaModel : std::uint8_t { nrl = 0, nathanson = 1 };
 enum class Polarization : std::uint8_t { horizontal = 0, vertical = 1 };
 
 // Height reference of a polygonal scene. ground: each object stands on the terrain below its centre, and flat faces

@@ -57,6 +57,8 @@ struct SeaConfiguration {
   std::vector<double> vertical{-50.796, 25.93, 0.7093, 21.588, 0.00211};
   double wind_factor = 0.2;  // factor of the upwind term of the GIT sea clutter model; 0 = no effect of wind direction
   double texture = 4.0;      // shape parameter of the gamma-distributed texture; 0 = none
+  // nathanson: with a correction fitted to Nathanson's table at 9.3 GHz, for 8 to 12 GHz (docs/spec/physics.md#sea)
+  SeaModel model = SeaModel::nrl;
 };
 
 // Rain cell (shower): a vertical cylinder. Return and attenuation of the rain are greatest at the axis. They are zero
@@ -71,11 +73,12 @@ struct RainCell {
 
 struct RainConfiguration {
   // Reflectivity Z = a r^b [mm^6/m^3] and attenuation k r^b [dB/km, one way] at the rain rate r [mm/h].
-  double reflectivity_factor = 200.0;   // a of Z; Marshall and Palmer 1948
-  double reflectivity_exponent = 1.6;   // b of Z
-  double dielectric_factor = 0.93;      // |K|^2 of water
-  double attenuation_factor = 0.01018;  // k of the attenuation; ITU-R P.838-3 at 9.6 GHz, horizontal
-  double attenuation_exponent = 1.278;  // b of the attenuation; ITU-R P.838-3 at 9.6 GHz, horizontal
+  double reflectivity_factor = 200.0;  // a of Z; Marshall and Palmer 1948
+  double reflectivity_exponent = 1.6;  // b of Z
+  double dielectric_factor = 0.93;     // |K|^2 of water
+  // k and b of the attenuation; kNotGiven: by ITU-R P.838-3 at the radar's frequency and SeaConfiguration::polarization
+  double attenuation_factor = kNotGiven;
+  double attenuation_exponent = kNotGiven;
   std::vector<RainCell> cells;
 };
 

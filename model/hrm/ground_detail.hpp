@@ -1,10 +1,9 @@
 // Synthetic texture of the ground's reflectivity: features that terrain posts do not resolve (fields, paths, stones).
 // Inputs: positions on the earth. Output: a factor on gamma (sigma0 = gamma * sin(grazing angle)) with mean 1.
 // The factor depends only on the position, so it is equal from every direction and in every look.
-// The factor is the product of two samples of one periodic texture. The second sample is at rotated and scaled
-// coordinates, which hides the period. A texel (element of the texture) is 4 m wide, or wider if positions are more
-// than 8 m apart.
-// Source: docs/spec/physics.md#multi-look.
+// The texture has no period: it blends tiles at random offsets into one table (simd::modulate()). It has a seam at
+// whole degrees. A texel (element of the table) is 4 m wide, or wider if positions are more than 8 m apart. Source:
+// docs/spec/physics.md#multi-look.
 #pragma once
 
 #include <cstddef>
@@ -28,11 +27,13 @@ class GroundTexture {
   void modulate(const terrain::PositionRun& positions, float* gamma) const;
 
  private:
-  void fill_table(const std::vector<float>& texels);
+  void fill_table(const std::vector<float>& field);
 
-  float texels_per_metre_;
-  int edge_;           // texels per side of the texture, a power of two
-  float unit_ = 1.0F;  // difference in texture value per step of a byte in table_
+  float texels_per_metre_ = 0.0F;
+  int edge_;             // texels per side of the table, a power of two
+  double mean_ = 0.0;    // of the field, the fourth root of the factor
+  double lowest_ = 0.0;  // value of the byte 0 in table_
+  double step_ = 0.0;    // difference in value per step of a byte
   // Words as in simd::DetailTable: a texel and its neighbours to the east, north and north-east, one byte each. So one
   // gather (vector load with one address per lane) reads the four texels of each bilinear sample.
   std::vector<std::uint32_t> table_;

@@ -13,20 +13,24 @@ namespace yars::model::hrm::simd {
 // block. One block is one cache line, so samples along a straight path in any direction read few cache lines.
 inline constexpr int kDetailBlock = 4;
 
-// Periodic texture of edge * edge words; `edge` is a power of two and at least kDetailBlock. The bytes of word (x, y)
-// are the texels (elements of the texture) (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1), lowest byte first; x is
-// east, y is north. `unit2`: square of the value of one byte step.
+// Periodic field of edge * edge words, the fourth root of a texture; `edge` is a power of two and at least
+// kDetailBlock. The bytes of word (x, y) are the texels (elements of the field) (x, y), (x + 1, y), (x, y + 1), (x + 1,
+// y + 1), lowest byte first; x is east, y is north. A byte b has the value mean + low + step * b.
 struct DetailTable {
   const std::uint32_t* texels = nullptr;
   int edge = 0;
-  float unit2 = 1.0F;
+  float mean = 0.0F, low = 0.0F, step = 0.0F;
+  float tiles_per_texel = 0.0F;  // 1 / spacing of the tiles
 };
 
-// gamma[i] *= texture(east, north) * texture(rotated and scaled east, north). Both samples are bilinear. Here east =
-// east_deg[i] * east_scale and north = north_deg[i] * north_scale, in texels. Reads and writes up to 15 entries beyond
-// `count`.
-void modulate(std::size_t count, const DetailTable& table, const float* east_deg, const float* north_deg,
-              float east_scale, float north_scale, float* gamma);
+// gamma[i] *= field(east, north)^4. Here east = east_deg[i] * east_scale and north = north_deg[i] * north_scale, in
+// texels. The field is a bilinear sample of the table. Each tile has its own random offset into the table, so that the
+// field has no period. Near the borders of tiles the deviation from the mean is the weighted sum of those of two or
+// three tiles. The squares of the weights add up to 1, so that the variance is even. `seed` selects the offsets. Reads
+// and writes up to 15 entries beyond `count`.
+// Source: Heitz and Neyret 2018, "High-Performance By-Example Noise using a Histogram-Preserving Blending Operator".
+void modulate(std::size_t count, const DetailTable& table, std::uint32_t seed, const float* east_deg,
+              const float* north_deg, float east_scale, float north_scale, float* gamma);
 
 // Fills sixteen columns by linear interpolation between every `step`th column. The first and the last column are
 // inputs, so `step` divides 15. Columns begin `pitch` entries apart and have `count` rows. Up to 15 further entries of

@@ -8,6 +8,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/world.hpp"
+#include "model/physics/rain_attenuation.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::physics {
@@ -281,10 +282,6 @@ double rain_reflectivity(const radar::RainConfiguration& rain, double rate_mmh, 
   return std::pow(std::numbers::pi, 5.0) * rain.dielectric_factor * z / std::pow(wavelength_m, 4.0);
 }
 
-double rain_attenuation_db_per_m(const radar::RainConfiguration& rain, double rate_mmh) {
-  return rain.attenuation_factor * std::pow(rate_mmh, rain.attenuation_exponent) / 1000.0;
-}
-
 double RainChord::profile(double distance_m) const {
   const double off_middle = (distance_m - middle_m) / radius_m;
   const double root = half_m > 0.0 ? std::max(0.0, depth - off_middle * off_middle) : 0.0;
@@ -315,10 +312,11 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
 std::vector<Shower> configured_showers(const RadarParameters& parameters) {
   const radar::RainConfiguration& rain = parameters.world.rain;
   const double wave_m = wavelength_m(parameters.frequency_ghz);
+  const RainLaw law = configured_rain_law(parameters);
   std::vector<Shower> showers;
   for (const radar::RainCell& cell : rain.cells) {
     showers.push_back({cell.position, cell.radius_m, cell.top_m, rain_reflectivity(rain, cell.rate_mmh, wave_m),
-                       rain_attenuation_db_per_m(rain, cell.rate_mmh)});
+                       rain_attenuation_db_per_m(law, cell.rate_mmh)});
   }
   return showers;
 }

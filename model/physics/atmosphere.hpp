@@ -114,18 +114,16 @@ class GasSamples {
   memory::CacheAlignedVector<float> constant_, slope_, bend_;
 };
 
-// Rain: volume reflectivity eta and attenuation at the rain rate r [mm/h], and their common profile across a shower.
+// Rain: volume reflectivity eta at the rain rate r [mm/h], and the profile of reflectivity and attenuation
+// (rain_attenuation.hpp) across a shower.
 // Reflectivity factor Z = a r^b [mm^6/m^3]. Source: Marshall and Palmer 1948.
 // Reflectivity eta = pi^5 |K|^2 Z / lambda^4; |K|^2: dielectric factor, lambda: wavelength. Source: Probert-Jones 1962.
-// Attenuation k r^alpha [dB/km]. Source: ITU-R P.838-3. The configuration has a, b, |K|^2, k and alpha.
+// The configuration has a, b and |K|^2.
 // The profile at the distance rho from the shower's centre is (1 - (rho / radius)^2)^2, a project choice. It falls
 // smoothly to 0, and its integral has a closed form.
 
 // Volume reflectivity eta [m^2/m^3] at a rain rate.
 double rain_reflectivity(const radar::RainConfiguration& rain, double rate_mmh, double wavelength_m);
-
-// One-way attenuation at a rain rate.
-double rain_attenuation_db_per_m(const radar::RainConfiguration& rain, double rate_mmh);
 
 // Shower of the configuration.
 struct Shower {

@@ -156,8 +156,10 @@ std::vector<float> SceneSurface::cardinal_effect_table() const {
 }
 
 namespace {
-constexpr double kMaxState = 6.0;                                // upper limit of the NRL model
-constexpr double kSteepest_rad = 60.0 * geo::kRadiansPerDegree;  // upper limit of the NRL model
+constexpr double kMaxState = 6.0;        // upper limit of the NRL model
+constexpr double kShallowest_deg = 0.1;  // lower limit of the NRL model
+constexpr double kSteepest_deg = 60.0;   // upper limit of the NRL model
+constexpr double kSteepest_rad = kSteepest_deg * geo::kRadiansPerDegree;
 
 // Maximum wind and WMO sea state of each Beaufort force from 1 to 6. Stronger wind gives state 6.
 struct Force {
@@ -180,6 +182,20 @@ double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double freque
          c[3] * std::pow(1.0 + sea_state, 1.0 / (2.0 + 0.085 * a + 0.033 * sea_state)) + c[4] * a * a;
 }
 
+double SeaCorrection::db(double grazing_deg, double sea_state) const {
+  const double held_deg = std::clamp(grazing_deg, kShallowest_deg, kSteepest_deg);
+  const double x = std::log10(std::sin(held_deg * geo::kRadiansPerDegree));
+  double sum = 0.0;
+  for (std::size_t i = p.size(); i-- > 0;) sum = sum * x + p[i] + q[i] * sea_state;
+  return sum;
+}
+
+SeaCorrection nathanson_correction(radar::Polarization polarization) {
+  if (polarization == radar::Polarization::horizontal)
+    return {{-4.845, 25.131, 57.583, 32.778, 5.558}, {0.774, -8.709, -16.637, -8.952, -1.462}};
+  return {{-1.465, 21.321, 39.909, 21.868, 3.784}, {0.906, -3.619, -7.616, -4.202, -0.705}};
+}
+
 double sea_state_of_wind(geo::Speed wind) {
   const double wind_kt = std::round(wind.knots());  // the Beaufort scale has whole knots
   if (wind_kt < 1.0) return 0.0;
@@ -199,6 +215,7 @@ SeaReturn make_sea_return(const RadarParameters& parameters) {
   SeaReturn sea;
   const bool horizontal = settings.polarization == radar::Polarization::horizontal;
   sea.coefficients = coefficients_of(horizontal ? settings.horizontal : settings.vertical);
+  if (settings.model == radar::SeaModel::nathanson) sea.correction = nathanson_correction(settings.polarization);
   sea.frequency_ghz = parameters.frequency_ghz;
   sea.wavelength_m = wavelength_m(sea.frequency_ghz);
   const double state = std::isnan(settings.state)
@@ -213,8 +230,9 @@ SeaReturn make_sea_return(const RadarParameters& parameters) {
 double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth) {
   if (!(sin_grazing > 0.0)) return 0.0;
   const double grazing_rad = std::min(std::asin(std::min(sin_grazing, 1.0)), kSteepest_rad);
-  const double isotropic_db =
-      nrl_sigma0_db(sea.coefficients, grazing_rad / geo::kRadiansPerDegree, sea.frequency_ghz, sea.state);
+  const double grazing_deg = grazing_rad / geo::kRadiansPerDegree;
+  const double isotropic_db = nrl_sigma0_db(sea.coefficients, grazing_deg, sea.frequency_ghz, sea.state) +
+                              sea.correction.db(grazing_deg, sea.state);
   const double upwind = upwind_db(sea.wind_factor, sea.wavelength_m, grazing_rad);
   return ratio(isotropic_db + upwind * std::cos((azimuth - sea.wind_from).radians()));
 }

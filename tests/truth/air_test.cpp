@@ -3,6 +3,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/physics/atmosphere.hpp"
+#include "model/physics/rain_attenuation.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "tests/model/physics/decibels.hpp"
 #include "tests/truth/ledger.hpp"
@@ -95,9 +96,10 @@ TEST(Truth, TheReferenceAtmosphereIsThatOfTheRecommendation) {
 TEST(Truth, RainAttenuatesAsTheRecommendationSays) {
   for (const AirPoint& point : {AirPoint{"10", 10.0, 0.193342}, {"50", 50.0, 1.513296}})
     expect_row({"Rain", "attenuation at 9.6 GHz, horizontal, by " + point.of + " mm/h", point.outside,
-                0.0025 * point.outside, "dB/km", "ITU-R P.838-3, equations (1) to (3), by another program",
-                "YARS has four digits of both coefficients"},
-               1000.0 * physics::rain_attenuation_db_per_m({}, point.x));
+                2e-5 * point.outside, "dB/km", "ITU-R P.838-3, equations (1) to (3), by another program",
+                "the source rounds k and α to five digits"},
+               1000.0 * physics::rain_attenuation_db_per_m(physics::configured_rain_law(radar::RadarConfiguration()),
+                                                           point.x));
 }
 
 TEST(Truth, RainReflectsAsDropsSmallAgainstTheWavelength) {

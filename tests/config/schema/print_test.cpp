@@ -102,6 +102,7 @@ class RandomConfiguration {
     made.navigation = navigation();
     made.route = route();
     made.world = world();
+    if (made.world.sea.model == radar::SeaModel::nathanson) made.receiver.frequency_ghz = number(8, 12);
     return made;
   }
 
@@ -197,8 +198,14 @@ class RandomConfiguration {
                 five_numbers(),
                 five_numbers(),
                 number(0, 2),
-                number(0, 100)};
-    made.rain = {number(0, 2000), number(0.5, 3), number(0, 1), number(0, 10), number(0.5, 3), {}};
+                number(0, 100),
+                radar::SeaModel(random_() % 2)};
+    made.rain = {number(0, 2000),
+                 number(0.5, 3),
+                 number(0, 1),
+                 coin() ? kUnknown : number(0, 10),
+                 coin() ? kUnknown : number(0.5, 3),
+                 {}};
     made.jamming = {number(0, 120), number(-80, 0), {}};
     for (std::size_t i = random_() % 4; i > 0; --i) {
       made.rain.cells.push_back(

@@ -57,10 +57,29 @@ TEST(Sea, AcceptsAStateOrAWindSpeed) {
   EXPECT_THAT(refusal("( Sea :vertical `( 1 2 3 4 ) )"), HasSubstr("a list of 5 numbers"));
 }
 
+TEST(Sea, RefusesTheModelOfXBandAtOtherFrequenciesInAnyOrderOfTheForms) {
+  const auto sea = loaded("( Sea :model nathanson ) ( Receiver :frequency 12 )").radar.world.sea;
+  EXPECT_EQ(sea.model, radar::SeaModel::nathanson);
+  EXPECT_EQ(loaded("( Receiver :frequency 7.9 )").radar.world.sea.model, radar::SeaModel::nrl);
+  constexpr const char* kExpected =
+      "expected a frequency of Receiver from 8 to 12 GHz for :model nathanson of Sea, found ";
+  EXPECT_THAT(refusal("( Sea :model nathanson )\n( Receiver :frequency 12.1 )"),
+              HasSubstr("text.guf:2:1: " + std::string(kExpected) + "12.1"));
+  EXPECT_THAT(refusal("( Receiver :frequency 7.9 )\n( Sea :model nathanson )"),
+              HasSubstr("text.guf:2:1: " + std::string(kExpected) + "7.9"));
+}
+
 TEST(Rain, AFormWithoutCellsKeepsTheEarlierCells) {
   const auto rain = loaded("( Rain `( ( RainCell 37.5 -123 ) ) ) ( Rain :reflectivityFactor 300 )").radar.world.rain;
   EXPECT_EQ(rain.cells.size(), 1u);
   EXPECT_EQ(rain.reflectivity_factor, 300.0);
+}
+
+TEST(Rain, HasNoFactorsOfAttenuationUnlessTheyAreGiven) {
+  EXPECT_TRUE(std::isnan(loaded("( Rain )").radar.world.rain.attenuation_factor));
+  const auto rain = loaded("( Rain :attenuationFactor 0.01018 :attenuationExponent 1.278 )").radar.world.rain;
+  EXPECT_EQ(rain.attenuation_factor, 0.01018);
+  EXPECT_EQ(rain.attenuation_exponent, 1.278);
 }
 
 TEST(ListsOfForms, AddToTheEarlierOnesWithTheirSlotMore) {

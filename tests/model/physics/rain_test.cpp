@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "model/physics/atmosphere.hpp"
+#include "model/physics/rain_attenuation.hpp"
 #include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
 
@@ -27,7 +28,22 @@ TEST(Rain, OfTenMillimetresPerHourHas39DbzAndAFifthOfADecibelPerKilometre) {
   const double eta = std::pow(std::numbers::pi, 5.0) * 0.93 * z * 1e-18 / std::pow(wavelength_m, 4.0);
   EXPECT_NEAR(physics::rain_reflectivity(rain, 10.0, wavelength_m) / eta, 1.0, 1e-9);
   EXPECT_NEAR(decibels(eta), -56.2, 0.1);
-  EXPECT_NEAR(1000.0 * physics::rain_attenuation_db_per_m(rain, 10.0), 0.193, 0.001);
+  EXPECT_NEAR(1000.0 * physics::rain_attenuation_db_per_m({0.010183, 1.27845}, 10.0), 0.193, 0.001);
+}
+
+TEST(Rain, AttenuatesByTheFrequencyUnlessTheConfigurationHasTheFactors) {
+  radar::RadarConfiguration configuration;
+  configuration.receiver.frequency_ghz = 16.0;
+  const physics::RainLaw computed = physics::configured_rain_law(configuration);
+  configuration.world.rain.attenuation_factor = 0.02;
+  EXPECT_EQ(physics::configured_rain_law(configuration).factor, 0.02);
+  EXPECT_EQ(physics::configured_rain_law(configuration).exponent, computed.exponent);
+  configuration.world.rain.attenuation_exponent = 1.1;
+  EXPECT_EQ(physics::configured_rain_law(configuration).exponent, 1.1);
+  configuration.world.rain = {};
+  configuration.receiver.frequency_ghz = 9.6;
+  EXPECT_NEAR(physics::configured_rain_law(configuration).factor, 0.010183, 1e-6);
+  EXPECT_NEAR(physics::configured_rain_law(configuration).exponent, 1.27845, 1e-5);
 }
 
 TEST(RainChord, ThroughTheMiddleHasAnIntegralOf16FifteenthsOfTheRadius) {
@@ -129,8 +145,7 @@ TEST(RainPath, AttenuatesTwoWayBehindTheRain) {
   const physics::SweepGeometry geometry = test::geometry_north(2000.0, 40000.0);
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0);
   const auto wet = test::seen_by_reference(configuration, geometry, plain);
-  const double one_way_db_per_m =
-      physics::rain_attenuation_db_per_m(configuration.world.rain, configuration.world.rain.cells[0].rate_mmh);
+  const double one_way_db_per_m = physics::rain_attenuation_db_per_m(physics::configured_rain_law(configuration), 10.0);
   configuration.world.rain.cells.clear();
   const auto dry = test::seen_by_reference(configuration, geometry, plain);
   // The slope of the ray, 1 : 19, adds a thousandth to its length in the rain.
