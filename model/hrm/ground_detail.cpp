@@ -14,11 +14,10 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr int kFinestEdge = 512;           // [texels] 512^2 words of 4 bytes are 1 MiB and fit the L2 cache
-constexpr double kFinestTexel_m = 4.0;     // [m] speckle would hide a finer texture
-constexpr double kLongestWave_m = 256.0;   // [m] terrain posts resolve longer features
-constexpr double kWidestTable_m = 4096.0;  // a narrower one has its longest waves too few times
-constexpr double kTile_m = 1200.0;         // [m] between tiles; a tile is at most 1560 m wide and fits every table
+constexpr int kFinestEdge = 512;          // [texels] 512^2 words of 4 bytes are 1 MiB and fit the L2 cache
+constexpr double kFinestTexel_m = 4.0;    // [m] speckle would hide a finer texture
+constexpr double kLongestWave_m = 256.0;  // [m] terrain posts resolve longer features
+constexpr double kTile_m = 1200.0;        // [m] between tiles; a tile is at most 1560 m wide and fits every table
 constexpr double kMaxByte = 255.0;
 constexpr std::uint32_t kSeed = 0x59a75u;  // fixed, so that the texture is the same in every run
 
@@ -115,13 +114,14 @@ struct Texels {
   int edge;  // of the texture
 };
 
-// A texel is at least half the spacing of the positions, because a finer texture would alias. The smallest table has
-// one block (kDetailBlock texels per side).
+// A texel is at least half the spacing of the positions, because a finer texture would alias. All tables have the same
+// side in metres, so that the ground looks the same in maps of every window. The smallest table has one block
+// (kDetailBlock texels per side).
 Texels texels_for(double pixel_m) {
   Texels texels{kFinestTexel_m, kFinestEdge};
   while (texels.width_m < 0.5 * pixel_m && texels.edge > simd::kDetailBlock) {
     texels.width_m *= 2.0;
-    if (texels.edge == kFinestEdge || texels.width_m * texels.edge > kWidestTable_m) texels.edge /= 2;
+    texels.edge /= 2;
   }
   return texels;
 }

@@ -52,9 +52,14 @@ struct FieldPosition {
 HWY_INLINE Floats sample(const DetailTable& table, const FieldPosition& at, hn::Vec<UnsignedTag> tile) {
   const SignedTag di;
   const auto mask = hn::Set(di, table.edge - 1);
+  // Fractions of the table's side, so that tables with texels of any width have equal offsets in metres.
   const auto offset = hn::BitCast(di, random::HWY_NAMESPACE::lowbias32(tile));
-  const auto i = hn::And(hn::Add(at.east.whole, offset), mask);
-  const auto j = hn::And(hn::Add(at.north.whole, hn::ShiftRight<16>(offset)), mask);
+  const auto half = hn::Set(di, 0xffff);
+  const auto texels_of = [&](auto fraction) {
+    return hn::ShiftRight<16>(hn::Mul(hn::And(fraction, half), hn::Set(di, table.edge)));
+  };
+  const auto i = hn::And(hn::Add(at.east.whole, texels_of(offset)), mask);
+  const auto j = hn::And(hn::Add(at.north.whole, texels_of(hn::ShiftRight<16>(offset))), mask);
   const auto low_bits = hn::Set(di, kDetailBlock - 1);
   // The index is the sum of three counts of texels: complete rows of blocks, complete blocks in the row, texels before
   // this one in the block.

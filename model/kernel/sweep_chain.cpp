@@ -151,8 +151,8 @@ void finish_sweep(rbm::Beam& beam, std::uint64_t seed, const SweepHeader& header
     std::fill(video.begin(), video.end(), std::uint8_t{0});
   } else {
     physics::PowerWindow amplified = window;
-    const bool ground = (labels.flags & kNoEchoFlags) == 0U;
-    if (!is_beacon(labels)) amplified.automatic_gain_db = beam.automatic_gain_db(geometry_of(header), ground);
+    const bool ground = (labels.flags & kNoEchoFlags) == 0U && !is_beacon(labels);
+    if (ground) amplified.automatic_gain_db = beam.automatic_gain_db(geometry_of(header));
     beam.form_video(amplified, header.range, labels.gain, {seed, labels.scan, labels.number}, video);
   }
   sweep.hash = databuffer::sweep_hash(sweep);

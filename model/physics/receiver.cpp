@@ -192,10 +192,6 @@ namespace {
 constexpr double kMaxPulse = 2.0 * static_cast<double>(PulseSmear::kMaxRadius) - 1.0;  // [samples]
 }  // namespace
 
-double automatic_gain_db(const Receiver& receiver) {
-  return receiver.automatic_gain ? -kNoiseLevel_db - 10.0 * std::log10(receiver.noise) : 0.0;
-}
-
 double point_smear_gain(double pulse_samples) {
   return pulse_samples > 0.0 ? std::min(pulse_samples, kMaxPulse) : 1.0;
 }

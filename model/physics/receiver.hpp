@@ -99,9 +99,6 @@ double time_control(const Receiver& receiver, double slant_range_m);
 inline constexpr double kLandLevel_db = 20.0;
 double automatic_gain_db(const Receiver& receiver, radar::BeamPattern pattern, geo::AltitudeMsl altitude,
                          geo::Angle antenna_elevation);
-// The same without returns of ground: thermal noise is kNoiseLevel_db below white.
-inline constexpr double kNoiseLevel_db = 40.0;
-double automatic_gain_db(const Receiver& receiver);
 
 // Exponent of the two-way Gaussian, 8 ln 2: gain 1/4 (-6 dB two-way) at half a beamwidth from the centre.
 inline constexpr double kTwoWayExponent = 5.545;

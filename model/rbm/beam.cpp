@@ -47,10 +47,8 @@ void Beam::use_world(const physics::RadarParameters& parameters, const radar::Wo
   for (Ray& ray : rays_) ray.current = false;
 }
 
-double Beam::automatic_gain_db(const physics::SweepGeometry& geometry, bool ground) const {
-  const physics::Receiver receiver = receivers_.at(geometry.range);
-  if (!ground) return physics::automatic_gain_db(receiver);
-  return physics::automatic_gain_db(receiver, pattern_, geometry.altitude, geometry.elevation);
+double Beam::automatic_gain_db(const physics::SweepGeometry& geometry) const {
+  return physics::automatic_gain_db(receivers_.at(geometry.range), pattern_, geometry.altitude, geometry.elevation);
 }
 
 void Beam::begin_pass() {

@@ -60,8 +60,8 @@ class Beam {
   std::size_t rays() const { return measured_; }
   // As Algorithm::lit(), of the ray nearest the beam's centre.
   void lit(std::span<std::uint8_t> mask) const;
-  // PowerWindow::automatic_gain_db of a sweep. `ground`: false if the sweep has no return of ground.
-  double automatic_gain_db(const physics::SweepGeometry& geometry, bool ground) const;
+  // PowerWindow::automatic_gain_db of a sweep with returns of ground.
+  double automatic_gain_db(const physics::SweepGeometry& geometry) const;
   // As Algorithm::form_video().
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                   std::span<std::uint8_t> video) {

@@ -123,8 +123,8 @@ class Store:
         there = _json_object(text)
         made_by = there.get("model", 1) if there else about["model"]
         if made_by != about["model"] and self.has_blocks():
-            raise DatasetError(f"{self.folder}: expected a data set of radar model {about['model']}, found one of model "
-                               f"{made_by}; choose another --out, or use YARS {there.get('yars')}")
+            raise DatasetError(f"{self.folder}: expected a data set of radar model {about['model']}, found one of "
+                               f"model {made_by}; choose another --out, or use YARS {there.get('yars')}")
         if there is not None and {**there, "yars": None} == {**about, "yars": None}:
             if there.get("yars") != about["yars"]:
                 warnings.warn(f"{self.folder}: begun by YARS {there.get('yars')}, this is {about['yars']}: "

@@ -114,7 +114,6 @@ TEST(RadarKernel, SniffStopsTransmittingAtTheEndOfTheScan) {
   for (const Sweep& sweep : quiet) {
     EXPECT_NE(sweep.flags & databuffer::kSweepNoiseOnly, 0U);
     EXPECT_LT(mean_video(sweep), 0.5 * lit);
-    EXPECT_GT(mean_video(sweep), 0.0);
   }
   EXPECT_NE(quiet[0].hash, quiet[1].hash);
 }
