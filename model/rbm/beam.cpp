@@ -47,8 +47,9 @@ void Beam::use_world(const physics::RadarParameters& parameters, const radar::Wo
   for (Ray& ray : rays_) ray.current = false;
 }
 
-double Beam::automatic_gain_db(const physics::SweepGeometry& geometry) const {
-  return physics::automatic_gain_db(receivers_.at(geometry.range), pattern_, geometry.altitude, geometry.elevation);
+double Beam::automatic_gain_db(const physics::SweepGeometry& geometry) {
+  if (receiver_.range_m != geometry.range.metres()) receiver_ = receivers_.at(geometry.range);
+  return physics::automatic_gain_db(receiver_, pattern_, geometry.altitude, geometry.elevation);
 }
 
 void Beam::begin_pass() {

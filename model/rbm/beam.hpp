@@ -61,7 +61,7 @@ class Beam {
   // As Algorithm::lit(), of the ray nearest the beam's centre.
   void lit(std::span<std::uint8_t> mask) const;
   // PowerWindow::automatic_gain_db of a sweep with returns of ground.
-  double automatic_gain_db(const physics::SweepGeometry& geometry) const;
+  double automatic_gain_db(const physics::SweepGeometry& geometry);
   // As Algorithm::form_video().
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                   std::span<std::uint8_t> video) {
@@ -96,6 +96,7 @@ class Beam {
   std::optional<PointReturn> points_;
   std::unique_ptr<Algorithm> algorithm_;
   physics::Receivers receivers_;
+  physics::Receiver receiver_;  // of the last selected range
   radar::BeamPattern pattern_;
   double beamwidth_deg_;
   std::vector<Ray> rays_;     // kept; one if there are no sub-beams
