@@ -4,7 +4,6 @@
 // Source: docs/spec/physics.md#power-and-video.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -12,12 +11,10 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/not_given.hpp"
 #include "lib/values/defaults.hpp"
 
 namespace yars::radar {
-
-// Value of a slot that a configuration does not set.
-inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 // The following limits bound the work of one sweep.
 using values::kMaxJammers;
@@ -141,12 +138,15 @@ struct Scene {
   std::string without{};  // names of omitted objects and groups, separated by commas; `*` and `?` are wildcards
 };
 
-// Atmosphere at mean sea level. Source: ITU-R P.676 (attenuation by gases), P.835 (profile with height).
+// Atmosphere at mean sea level. Source: ITU-R P.676 (attenuation by gases), P.835 (profile with height), P.453
+// (refractivity; its profile falls exponentially with height).
 struct AtmosphereConfiguration {
-  bool gases = true;              // true: oxygen and water vapour attenuate
-  double temperature_c = 15.0;    // [deg C]
-  double pressure_hpa = 1013.25;  // [hPa] pressure of the dry air
-  double water_g_m3 = 7.5;        // [g/m^3] density of water vapour
+  bool gases = true;                    // true: oxygen and water vapour attenuate
+  double temperature_c = 15.0;          // [deg C]
+  double pressure_hpa = 1013.25;        // [hPa] of dry air and water vapour together
+  double water_g_m3 = 7.5;              // [g/m^3] density of water vapour
+  double refractivity = 313.0;          // [N-units] (index of refraction - 1) times a million
+  double refractivity_per_km = 0.1439;  // [1/km] it falls as exp(-refractivity_per_km height)
 };
 
 struct TerrainConfiguration {

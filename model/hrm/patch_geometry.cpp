@@ -14,11 +14,13 @@ PatchGeometry::PatchGeometry(const PatchOrder& order, const physics::GeometryPar
       plane_msl_m_(elevation_m),
       distance_m_(0.0),
       window_m_(order.window.metres()),
-      earth_(0.0) {
+      earth_(0.0),
+      earth_above_plane_(0.0) {
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(order.apex, order.centre);
   distance_m_ = geodesic.distance.metres();
   up_ = geodesic.azimuth_at_start;
-  earth_ = physics::effective_earth(parameters, apex_, up_);
+  earth_ = physics::effective_earth(parameters, apex_, order.altitude, up_);
+  earth_above_plane_ = earth_.above(plane_msl_m_);
 }
 
 MapPoint PatchGeometry::point_of(geo::GeoPoint position) const {
@@ -31,12 +33,19 @@ geo::GeoPoint PatchGeometry::position_of(MapPoint point) const {
 }
 
 double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const {
+  const SightLine line = sight_line(distance_m);
+  return (line.above_m + tangent * line.chord_m) / (line.cosine - tangent * line.sine) - plane_msl_m_;
+}
+
+PatchGeometry::SightLine PatchGeometry::sight_line(double distance_m) const {
+  constexpr double kStep_m = 1000.0;  // of height, for the slope of the lift
   const double angle_rad = distance_m * earth_.curvature();
   const double sine = std::sin(angle_rad);
-  const double chord_m = angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m;
-  // Solves tangent = (height * cosine - above) / (chord + height * sine) for the height above mean sea level.
-  const double above_m = altitude_m_ + earth_.drop_m(distance_m);
-  return (above_m + tangent * chord_m) / (std::cos(angle_rad) - tangent * sine) - plane_msl_m_;
+  const double lift_m = earth_.elevation_lift_m(altitude_m_, distance_m, plane_msl_m_);
+  const double per_metre =
+      (earth_.elevation_lift_m(altitude_m_, distance_m, plane_msl_m_ + kStep_m) - lift_m) / kStep_m;
+  return {altitude_m_ + earth_.drop_m(distance_m) - lift_m + per_metre * plane_msl_m_,
+          angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m, sine, std::cos(angle_rad) + per_metre};
 }
 
 double PatchGeometry::slant_range_m() const {
@@ -44,7 +53,7 @@ double PatchGeometry::slant_range_m() const {
 }
 
 double PatchGeometry::sin_grazing() const {
-  return earth_.sight(altitude_m_ - plane_msl_m_, distance_m_, 0.0).sin_grazing;
+  return earth_above_plane_.sight(altitude_m_ - plane_msl_m_, distance_m_, 0.0).sin_grazing;
 }
 
 double laid_over_m(double distance_m, double height_m, double above_level_m) {

@@ -68,16 +68,29 @@ class PatchGeometry {
   double plane_msl_m() const { return plane_msl_m_; }  // elevation of the map plane
   double altitude_m() const { return altitude_m_; }    // of the aircraft, above mean sea level
   const physics::EffectiveEarth& earth() const { return earth_; }
+  // The same for altitudes and heights above the map plane.
+  const physics::EffectiveEarth& earth_above_plane() const { return earth_above_plane_; }
 
   // Height [m] of the aircraft above the map plane's point at a distance over ground, along the vertical at the
-  // aircraft. The earth's curvature lowers the point.
-  double above_plane_m(double distance_m) const { return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m); }
+  // aircraft. The earth's curvature lowers the point, refraction lifts it.
+  double above_plane_m(double distance_m) const {
+    return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m) -
+           earth_.elevation_lift_m(altitude_m_, distance_m, plane_msl_m_);
+  }
   // Height [m] of the aircraft above the local horizontal plane at the map plane's point at a distance over ground. If
   // the point is raised, its slant range decreases in proportion to this height (layover).
-  double above_level_m(double distance_m) const { return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m); }
+  double above_level_m(double distance_m) const {
+    return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m) + earth_.grazing_lift_m(distance_m, plane_msl_m_);
+  }
   // Height [m] above the map plane of a line of sight at a distance over ground. `tangent`: tangent of the line's
   // elevation angle against the horizontal at the aircraft, positive up.
   double height_on_sight_m(double distance_m, double tangent) const;
+  // The point at a distance over ground and at the height h above mean sea level has the tangent of elevation
+  // (h * cosine - above) / (chord + h * sine). The lift by refraction is that at the map plane, with its slope in h.
+  struct SightLine {
+    double above_m, chord_m, sine, cosine;
+  };
+  SightLine sight_line(double distance_m) const;
   double slant_range_m() const;  // from aircraft to centre
   double sin_grazing() const;    // sine of the grazing angle at the centre
   geo::Angle squint(geo::Bearing ground_track) const { return up_ - ground_track; }  // positive: right of the track
@@ -89,7 +102,7 @@ class PatchGeometry {
   double distance_m_;
   geo::Bearing up_;
   double window_m_;
-  physics::EffectiveEarth earth_;
+  physics::EffectiveEarth earth_, earth_above_plane_;
 };
 
 // Distance over ground [m] of the point on the map plane at the slant range of a scatterer (layover, foreshortening).

@@ -64,12 +64,11 @@ CrestsBetweenRows crests_between_rows(const PolarGrid& grid, const terrain::Terr
 }
 
 PolarGround::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
-  const physics::EffectiveEarth& earth = geometry.earth();
-  const double angle_rad = distance_m * earth.curvature();
-  above_m = static_cast<float>(geometry.altitude_m() + earth.drop_m(distance_m));
-  chord_m = static_cast<float>(angle_rad > 0.0 ? earth.radius_m() * std::sin(angle_rad) : distance_m);
-  sine = static_cast<float>(std::sin(angle_rad));
-  cosine = static_cast<float>(std::cos(angle_rad));
+  const PatchGeometry::SightLine line = geometry.sight_line(distance_m);
+  above_m = static_cast<float>(line.above_m);
+  chord_m = static_cast<float>(line.chord_m);
+  sine = static_cast<float>(line.sine);
+  cosine = static_cast<float>(line.cosine);
 }
 
 PolarGround::Column::Column(std::size_t samples)
@@ -107,7 +106,8 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     window_->distance_m[row] = static_cast<float>(distance_m);
     row_sight_.emplace_back(geometry, distance_m);
     const double above_m = geometry.altitude_m() - geometry.plane_msl_m();
-    sin_grazing_[row] = static_cast<float>(std::max(0.0, geometry.earth().sight(above_m, distance_m, 0.0).sin_grazing));
+    sin_grazing_[row] =
+        static_cast<float>(std::max(0.0, geometry.earth_above_plane().sight(above_m, distance_m, 0.0).sin_grazing));
     sea_divisor_[row] = sin_grazing_[row] > 0.0F ? sin_grazing_[row] : std::numeric_limits<float>::infinity();
   }
   const double path_m = grid.first_distance_m;
@@ -240,7 +240,11 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
   // Crests on the lines of posts between the samples also raise the horizon.
   const physics::EffectiveEarth& earth = geometry.earth();
   if (view.crests(column.positions.run(),
-                  {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples), {}},
+                  {geometry.altitude_m(),
+                   earth.curvature(),
+                   earth.lift().of_elevation,
+                   std::span(column.distance_m).first(samples),
+                   {}},
                   std::span(column.crest).first(samples)))
     tangent = std::max(
         tangent, *std::max_element(column.crest.begin(), column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
@@ -260,11 +264,13 @@ void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain&
   float* crest_m = &strip_crest_[lane * pitch_];
   std::fill_n(crest_m, rows, kNoHorizon);
   if (terrain.crests.summits) raise_to_summits(geometry, lane);
-  if (!terrain.crests.lines ||
-      !terrain.window->crests(
-          column.positions.run(),
-          {geometry.altitude_m(), geometry.earth().curvature(), std::span(column.distance_m).first(rows), {}},
-          std::span(column.crest).first(rows)))
+  if (!terrain.crests.lines || !terrain.window->crests(column.positions.run(),
+                                                       {geometry.altitude_m(),
+                                                        geometry.earth().curvature(),
+                                                        geometry.earth().lift().of_elevation,
+                                                        std::span(column.distance_m).first(rows),
+                                                        {}},
+                                                       std::span(column.crest).first(rows)))
     return;
   column.crest[0] = terrain::kNoTangent;
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());

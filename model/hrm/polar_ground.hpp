@@ -75,9 +75,7 @@ class PolarGround {
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
   // Coefficients of the tangent of the elevation angle, from the aircraft, of ground at one distance over ground:
-  // tangent = (height * cosine - above) / (chord + height * sine), height above mean sea level. Here `above` is the
-  // aircraft's altitude plus the drop of the earth's surface, and `chord` is R sin a (on a flat earth the distance).
-  // Sine and cosine are those of a, the angle at the centre of the effective earth (radius R) from aircraft to ground.
+  // PatchGeometry::SightLine in float.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;

@@ -113,7 +113,13 @@ class RainVector {
     const Direction ground_point = to_height(height_m);
     slant_square_ = hn::Max(square_of(ground_point), set(1.0F));
     distance_inverse_ = hn::Div(set(1.0F), hn::Max(distance_m_, set(1e-3F)));
-    sag_m_ = hn::Mul(hn::Mul(distance_m_, angle), set(0.5F));
+    // EffectiveEarth::sag_m().
+    const auto ground_m2 = hn::Mul(distance_m_, distance_m_);
+    const auto grazing =
+        fused::mul_add(height_m, set(c.lift.grazing_per_height),
+                       fused::mul_add(ground_m2, set(c.lift.grazing_per_square), set(c.lift.grazing_level)));
+    const auto lifts_m = fused::mul_add(ground_m2, grazing, lift_m(slant_square_, height_m));
+    sag_m_ = hn::Mul(fused::mul_sub(distance_m_, angle, lifts_m), set(0.5F));
     const auto fall_m = hn::Sub(hn::Sub(height_m, set(c.altitude_m)), sag_m_);
     // A ray that is level within a millimetre is taken to fall by a millimetre, because stretch() divides by its fall.
     fall_m_ = hn::IfThenElse(hn::Lt(hn::Abs(fall_m), set(1e-3F)), set(-1e-3F), fall_m);
@@ -143,8 +149,16 @@ class RainVector {
 
  private:
   HWY_INLINE Direction to_height(RainFloats height_m) const {
-    return {fused::mul_add(height_m, sine_, chord_m_),
-            fused::mul_sub(height_m, cosine_, hn::Add(drop_m_, set(c_.altitude_m)))};
+    const Direction straight{fused::mul_add(height_m, sine_, chord_m_),
+                             fused::mul_sub(height_m, cosine_, hn::Add(drop_m_, set(c_.altitude_m)))};
+    return {straight.out, hn::Add(straight.up, lift_m(square_of(straight), height_m))};
+  }
+  // terrain::RayLift::at_m().
+  HWY_INLINE RainFloats lift_m(RainFloats square_m2, RainFloats height_m) const {
+    const auto far_m2 = hn::Min(square_m2, set(c_.lift.max_square_m2));
+    const auto here = fused::mul_add(far_m2, set(c_.lift.per_square), set(c_.lift.level));
+    const auto per_height = fused::mul_add(far_m2, set(c_.lift.per_both), set(c_.lift.per_height));
+    return hn::Mul(square_m2, fused::mul_add(height_m, per_height, here));
   }
   static HWY_INLINE RainFloats square_of(Direction to) { return fused::mul_add(to.out, to.out, hn::Mul(to.up, to.up)); }
 
@@ -338,6 +352,7 @@ simd::RainConstants RainSamples::constants(const SweepGeometry& geometry, const 
   simd::RainConstants c;
   c.altitude_m = static_cast<float>(geometry.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
+  c.lift = in_float(earth.lift());
   c.half_stc = static_cast<float>(0.5 * receiver.stc_exponent);
   c.stc_octaves = static_cast<float>(receiver.stc_exponent * std::log2(receiver.stc_range_m));
   c.sin_elevation = static_cast<float>(std::sin(elevation_rad));

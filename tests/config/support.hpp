@@ -34,13 +34,18 @@ inline auto fields(const radar::ViewConfiguration& view) {
                     fields(lines));
 }
 
+// The value, or -1e9 for NaN, so that two unknown values are equal.
+inline double comparable(double value) {
+  return std::isnan(value) ? -1e9 : value;
+}
+
 inline auto fields(const radar::Fidelity& fidelity) {
   const auto& [name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams, slant,
                noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce, map_noise] =
       fidelity;
-  return std::tuple(name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams,
-                    slant, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce,
-                    map_noise);
+  return std::tuple(name, automatic, share, algorithm, earth, comparable(factor), samples, knots, interpolation, posts,
+                    beams, slant, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground,
+                    bounce, map_noise);
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {
@@ -72,11 +77,6 @@ inline auto fields(const radar::RoutePoint& point) {
   const auto& [name, kind, position, elevation] = point;
   const auto& [latitude, longitude] = position;
   return std::tuple(name, kind, latitude, longitude, std::isnan(elevation) ? -1e9 : elevation);
-}
-
-// The value, or -1e9 for NaN, so that two unknown values are equal.
-inline double comparable(double value) {
-  return std::isnan(value) ? -1e9 : value;
 }
 
 inline auto fields(const radar::Material& material) {
@@ -150,14 +150,15 @@ inline auto fields(const radar::WorldConfiguration& world) {
   const auto& [slope, reference, street, land_texture, materials] = world.land;
   const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture] = world.sea;
   const auto& [a, b, dielectric, k, exponent, cells] = world.rain;
-  const auto& [gases, temperature, pressure, water] = world.atmosphere;
+  const auto& [gases, temperature, pressure, water, refractivity, per_km] = world.atmosphere;
   const auto& [radar_power, sidelobes, jammers] = world.jamming;
   const auto& [beacon_code, beacons] = world.beacons;
   const auto lists =
       std::apply([](const auto&... list) { return std::tuple(fields_of_all(list)...); }, radar::lists_of(world));
   return std::tuple(std::tuple(slope, reference, street, land_texture, fields_of_all(materials)),
                     std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor, sea_texture),
-                    std::tuple(a, b, dielectric, k, exponent), std::tuple(gases, temperature, pressure, water),
+                    std::tuple(a, b, dielectric, k, exponent),
+                    std::tuple(gases, temperature, pressure, water, refractivity, per_km),
                     std::tuple(radar_power, sidelobes), lists, fields_of_all(world.scenes),
                     std::tuple(beacon_code, fields_of_all(beacons)));
 }

@@ -23,7 +23,9 @@ struct Ray {
   const float* east_deg = nullptr;
   const float* distance_m = nullptr;
   float altitude_m = 0.0F;  // [m] MSL of the observer
-  float curvature = 0.0F;   // [1/m] curvature of the effective earth
+  float curvature = 0.0F;   // [1/m] of the sphere
+  RayLift lift{};
+  float lift_bound = 0.0F;  // [1/m] RayLift::bound()
   // Tangents that ground must reach to be of interest, one per position, ascending; null: all ground is.
   const float* floor = nullptr;
   // [m] Distance between neighbouring positions if it is the same everywhere and `floor` is given, else 0.

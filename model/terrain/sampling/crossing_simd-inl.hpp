@@ -48,19 +48,25 @@ HWY_INLINE Height between(const sampling::Grid& grid, Ints near, Ints far, Float
   return {grid.unit_m == 1.0F ? posts : hn::Mul(posts, hn::Set(d, grid.unit_m)), known};
 }
 
-// Ground in the vertical plane of the ray, relative to the observer.
+// Ground in the vertical plane of the ray, relative to the observer, with the lift by refraction.
 struct Sight {
   Floats out_m, up_m;
 };
 
-// Curvature of the earth and altitude of the observer.
+// Curvature of the earth, altitude of the observer, lift by refraction.
 class Observer {
  public:
   HWY_INLINE explicit Observer(const Ray& ray)
-      : curvature_(hn::Set(FloatLanes(), ray.curvature)), altitude_m_(hn::Set(FloatLanes(), ray.altitude_m)) {}
+      : curvature_(hn::Set(FloatLanes(), ray.curvature)),
+        altitude_m_(hn::Set(FloatLanes(), ray.altitude_m)),
+        level_(all(ray.lift.level)),
+        per_height_(all(ray.lift.per_height)),
+        per_square_(all(ray.lift.per_square)),
+        per_both_(all(ray.lift.per_both)),
+        max_square_m2_(all(ray.lift.max_square_m2)) {}
 
   // Ground at a distance and a height. angle: at the earth's centre [rad]. drop_m and chord_m: series of (1 - cos
-  // angle) and sin angle, times the radius; the same as in model/rbm/sweep_simd.cpp.
+  // angle) and sin angle, times the radius; the same as in model/rbm/sweep_simd.cpp. Lift: RayLift::at_m().
   HWY_INLINE Sight sight_of(Floats distance_m, Floats height_m) const {
     const FloatLanes d;
     const auto angle = hn::Mul(distance_m, curvature_);
@@ -70,11 +76,20 @@ class Observer {
     const auto chord_m = fused::neg_mul_add(hn::Mul(distance_m, square), hn::Set(d, 0.166666667F), distance_m);
     const auto sine = hn::Mul(chord_m, curvature_);
     const auto cosine = fused::neg_mul_add(drop_m, curvature_, hn::Set(d, 1.0F));
-    return {fused::mul_add(height_m, sine, chord_m), fused::mul_sub(height_m, cosine, hn::Add(drop_m, altitude_m_))};
+    const auto out_m = fused::mul_add(height_m, sine, chord_m);
+    const auto up_m = fused::mul_sub(height_m, cosine, hn::Add(drop_m, altitude_m_));
+    const auto slant_m2 = fused::mul_add(out_m, out_m, hn::Mul(up_m, up_m));
+    const auto far_m2 = hn::Min(slant_m2, max_square_m2_);
+    const auto here = fused::mul_add(far_m2, per_square_, level_);
+    const auto per_height = fused::mul_add(far_m2, per_both_, per_height_);
+    return {out_m, fused::mul_add(slant_m2, fused::mul_add(height_m, per_height, here), up_m)};
   }
 
  private:
+  static HWY_INLINE Floats all(double value) { return hn::Set(FloatLanes(), static_cast<float>(value)); }
+
   Floats curvature_, altitude_m_;
+  Floats level_, per_height_, per_square_, per_both_, max_square_m2_;
 };
 
 // True where the tangent of `sight` may reach the floor. The product needs no division, and is loose by more than the

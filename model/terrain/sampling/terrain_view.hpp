@@ -7,6 +7,7 @@
 // Threads: any thread may read a view, which is immutable. prepare() runs on one thread at a time and may wait.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -79,10 +80,33 @@ struct PostSpacing {
   double columns_deg = 0.0;  // [deg] longitude between columns; a column lies on every whole degree
 };
 
-// Geometry of a ray from an observer at its start, over the effective earth: a sphere that accounts for refraction.
+// Lift of a point by refraction, from one observer: its tangent of elevation is (up + lift) / out. Out and up are those
+// of the straight line to it. The lift is s (level + per_height h + min(s, max_square) (per_square + per_both h)), s
+// the squared slant range and h the height [m]. Zeros: rays are straight over the effective earth.
+struct RayLift {
+  double level = 0.0, per_height = 0.0, per_square = 0.0, per_both = 0.0;
+  double max_square_m2 = 0.0;
+
+  double at_m(double square_m2, double height_m) const {
+    return square_m2 *
+           (level + per_height * height_m + std::min(square_m2, max_square_m2) * (per_square + per_both * height_m));
+  }
+  // Upper bound of lift / s up to a squared slant range, for all ground.
+  double bound(double square_m2) const {
+    double highest = 0.0;
+    for (const double s : {0.0, std::min(square_m2, max_square_m2)})
+      for (const double height_m : {-12'000.0, 10'000.0})
+        highest = std::max(highest, level + per_height * height_m + s * (per_square + per_both * height_m));
+    return highest;
+  }
+};
+
+// Geometry of a ray from an observer at its start, over a sphere: the earth with the lift of refraction, or an
+// effective earth, whose radius accounts for refraction.
 struct RaySight {
-  double altitude_m = 0.0;            // [m] MSL of the observer
-  double curvature = 0.0;             // [1/m] curvature of the effective earth
+  double altitude_m = 0.0;  // [m] MSL of the observer
+  double curvature = 0.0;   // [1/m] of the sphere
+  RayLift lift{};
   std::span<const float> distance_m;  // [m] ground distance of the positions, ascending
   // For each position, the highest tangent of all positions up to it, itself included. Crests below it hide nothing,
   // and crests() may leave them out, as well as the ground shortly before evenly spaced positions (NearGround).

@@ -102,7 +102,7 @@ TEST(Standard, IsCloseToTheReferenceOverHills) {
 
 TEST(Standard, IsCloseToTheReferenceOverACone) {
   const hrm::PatchOrder order = order_from({});
-  const hrm::PatchGeometry geometry(order, radar::Fidelity(), kGround_m);
+  const hrm::PatchGeometry geometry(order, radar::RadarConfiguration(), kGround_m);
   const auto cone = [&](geo::GeoPoint position) {
     const hrm::MapPoint point = geometry.point_of(position);
     return kGround_m + std::max(0.0, 80.0 - 0.3 * std::hypot(point.right_m, point.up_m));

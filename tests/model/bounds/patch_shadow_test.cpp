@@ -94,7 +94,7 @@ std::unique_ptr<PresetGround> compute_ground(const radar::RadarConfiguration& co
                                              const hrm::PatchOrder& order, const terrain::TerrainViewPointer& window,
                                              const terrain::TerrainViewPointer& path) {
   const double elevation_m = window->elevation_m(order.centre);
-  const hrm::PatchGeometry geometry(order, configuration.fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
+  const hrm::PatchGeometry geometry(order, configuration, std::isnan(elevation_m) ? 0.0 : elevation_m);
   const int pixels = configuration.fidelity.map_size;
   const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
   const int cells = exact ? hrm::kReferenceCells : configuration.fidelity.map_oversampling;
