@@ -78,10 +78,8 @@ class PatchGeometry {
            earth_.elevation_lift_m(altitude_m_, distance_m, plane_msl_m_);
   }
   // Height [m] of the aircraft above the local horizontal plane at the map plane's point at a distance over ground. If
-  // the point is raised, its slant range decreases in proportion to this height (layover).
-  double above_level_m(double distance_m) const {
-    return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m) + earth_.grazing_lift_m(distance_m, plane_msl_m_);
-  }
+  // the point is raised, its slant range decreases in proportion to this height (layover). Slant ranges are straight.
+  double above_level_m(double distance_m) const { return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m); }
   // Height [m] above the map plane of a line of sight at a distance over ground. `tangent`: tangent of the line's
   // elevation angle against the horizontal at the aircraft, positive up.
   double height_on_sight_m(double distance_m, double tangent) const;

@@ -175,7 +175,7 @@ hrm::PatchGeometry geometry_at(double distance_m, double window_m) {
   Viewpoint view;
   view.distance_m = distance_m;
   view.window_m = window_m;
-  return {order_from(view), bare_map(64).fidelity, kGround_m};
+  return {order_from(view), bare_map(64), kGround_m};
 }
 
 TEST(BlindZone, HasThePixelsThatLieInItByAngle) {

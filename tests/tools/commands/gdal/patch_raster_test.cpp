@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/radar/fidelity.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tests/endtoend/process_set.hpp"
