@@ -33,23 +33,34 @@ geo::GeoPoint PatchGeometry::position_of(MapPoint point) const {
 }
 
 double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const {
-  const SightLine line = sight_line(distance_m);
-  return (line.above_m + tangent * line.chord_m) / (line.cosine - tangent * line.sine) - plane_msl_m_;
+  return sight_line(distance_m).height_at(tangent, plane_msl_m_);
+}
+
+PatchGeometry::Lift PatchGeometry::lift(double distance_m) const {
+  constexpr double kStep_m = 1000.0;
+  const auto at = [&](double height_m) {
+    return earth_.elevation_lift_m(altitude_m_, distance_m, plane_msl_m_ + height_m);
+  };
+  const double low_m = at(-kStep_m), plane_m = at(0.0), high_m = at(kStep_m);
+  return {plane_m, (high_m - low_m) / (2.0 * kStep_m), (high_m + low_m - 2.0 * plane_m) / (2.0 * kStep_m * kStep_m)};
 }
 
 PatchGeometry::SightLine PatchGeometry::sight_line(double distance_m) const {
-  constexpr double kStep_m = 1000.0;  // of height, for the slope of the lift
   const double angle_rad = distance_m * earth_.curvature();
   const double sine = std::sin(angle_rad);
-  const double lift_m = earth_.elevation_lift_m(altitude_m_, distance_m, plane_msl_m_);
-  const double per_metre =
-      (earth_.elevation_lift_m(altitude_m_, distance_m, plane_msl_m_ + kStep_m) - lift_m) / kStep_m;
+  const auto [lift_m, per_metre, bow] = lift(distance_m);
   return {altitude_m_ + earth_.drop_m(distance_m) - lift_m + per_metre * plane_msl_m_,
-          angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m, sine, std::cos(angle_rad) + per_metre};
+          angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m, sine, std::cos(angle_rad) + per_metre, bow};
+}
+
+PatchGeometry::PlaneSight PatchGeometry::plane_sight(double distance_m) const {
+  const auto [lift_m, per_metre, bow] = lift(distance_m);
+  const double above_m = altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m) - lift_m;
+  return {above_m / (1.0 + per_metre), distance_m / (1.0 + per_metre)};
 }
 
 double PatchGeometry::slant_range_m() const {
-  return std::hypot(distance_m_, above_plane_m(distance_m_));
+  return std::hypot(distance_m_, altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m_));
 }
 
 double PatchGeometry::sin_grazing() const {

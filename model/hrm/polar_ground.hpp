@@ -44,7 +44,7 @@ struct GroundArrays {
   // A void has gamma 0 (SurfacePoint::gamma) and the height of the last known point between aircraft and void. Without
   // such a point, it has the height of the first known point of the column, or 0 if the whole column is void.
   SurfacePoint* surface = nullptr;
-  // Horizon at row 0 by column: greatest (height - PatchGeometry::above_plane_m()) / distance of all ground nearer than
+  // Horizon at row 0 by column: greatest tangent by PatchGeometry::plane_sight() of all ground nearer than
   // row 0. -1e6 if no such ground is known.
   float* horizon = nullptr;
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
@@ -78,7 +78,8 @@ class PolarGround {
   // PatchGeometry::SightLine in float.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
-    float above_m, chord_m, sine, cosine;
+    float above_m, chord_m, sine, cosine, bow;
+    float above_plane_m, distance_m;  // PatchGeometry::PlaneSight
   };
   int column_step(const PolarGrid& grid, const terrain::TerrainView& view, const GroundTexture* detail) const;
   int path_step(const PolarGrid& grid, const terrain::TerrainView& view) const;
@@ -88,7 +89,7 @@ class PolarGround {
   std::size_t read_path(const PatchGeometry& geometry, const PolarGrid& grid, geo::Bearing azimuth,
                         const terrain::TerrainView& view, float& horizon);
   void read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane);
-  void raise_to_summits(const PatchGeometry& geometry, std::size_t lane);
+  void raise_to_summits(std::size_t lane);
   void subtract_plane(const PatchGeometry& geometry, std::size_t lane);
   void interpolate_columns(std::size_t step, bool materials);
   void prefetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const;

@@ -98,8 +98,11 @@ double EffectiveEarth::lift_in_elevation_m(double square_m2, double distance_m, 
 }
 
 double EffectiveEarth::elevation_lift_m(double altitude_m, double distance_m, double height_m) const {
-  const double up_m = height_m - drop_m(distance_m) - altitude_m;
-  return lift_in_elevation_m(distance_m * distance_m + up_m * up_m, distance_m, height_m);
+  const double angle_rad = distance_m * curvature();
+  const double out_m =
+      (angle_rad > 0.0 ? radius_m_ * std::sin(angle_rad) : distance_m) + height_m * std::sin(angle_rad);
+  const double up_m = height_m * std::cos(angle_rad) - drop_m(distance_m) - altitude_m;
+  return lift_in_elevation_m(out_m * out_m + up_m * up_m, distance_m, height_m);
 }
 
 double EffectiveEarth::grazing_lift_m(double distance_m, double height_m) const {

@@ -116,8 +116,9 @@ bool lies_below(const physics::EffectiveEarth& earth, double altitude_m, double 
   const double angle_rad = distance_m * earth.curvature();
   const double margin_m =
       (std::abs(tangent) + angle_rad) * angle_rad * (std::abs(height_m) + distance_m * angle_rad / 6.0);
-  return height_m + 1.1 * earth.elevation_lift_m(altitude_m, distance_m, height_m) <
-         altitude_m + distance_m * (tangent + 0.5 * angle_rad) - margin_m;
+  const double below_m = altitude_m - height_m + 0.5 * distance_m * angle_rad;
+  const double lift_m = earth.lift().of_elevation.at_m(distance_m * distance_m + below_m * below_m, height_m);
+  return height_m + 1.1 * lift_m < altitude_m + distance_m * (tangent + 0.5 * angle_rad) - margin_m;
 }
 }  // namespace
 

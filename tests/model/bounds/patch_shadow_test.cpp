@@ -79,7 +79,8 @@ struct PresetGround {
       const std::size_t at = grid.at(column, row);
       const double distance_m = grid.distance_m(row);
       const auto tangent = [&](float height_m) {
-        return (static_cast<double>(height_m) - geometry.above_plane_m(distance_m)) / distance_m;
+        return (static_cast<double>(height_m) - geometry.above_plane_m(distance_m)) /
+               geometry.sight_distance_m(distance_m);
       };
       if (crests.any()) highest = std::max(highest, tangent(crest_m[at]));
       lit_rows.push_back(tangent(surface[at].height_m) > highest);
