@@ -1,6 +1,7 @@
 #include "model/hrm/patch_geometry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lib/geo/geodesy.hpp"
@@ -21,6 +22,8 @@ PatchGeometry::PatchGeometry(const PatchOrder& order, const physics::GeometryPar
   up_ = geodesic.azimuth_at_start;
   earth_ = physics::effective_earth(parameters, apex_, order.altitude, up_);
   earth_above_plane_ = earth_.above(plane_msl_m_);
+  const std::array<float, 1> reach_m{static_cast<float>(2.0 * (distance_m_ + window_m_))};
+  series_ = terrain::sight_series({altitude_m_, earth_.curvature(), earth_.lift().of_elevation, reach_m});
 }
 
 MapPoint PatchGeometry::point_of(geo::GeoPoint position) const {
@@ -36,27 +39,26 @@ double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const
   return sight_line(distance_m).height_at(tangent, plane_msl_m_);
 }
 
-PatchGeometry::Lift PatchGeometry::lift(double distance_m) const {
-  constexpr double kStep_m = 1000.0;
-  const auto at = [&](double height_m) {
+PatchGeometry::SightLine PatchGeometry::sight_line(double distance_m) const {
+  if (!earth_.traced()) {
+    const auto [above_m, chord_m, sine, cosine] = series_.at(earth_.curvature(), distance_m);
+    return {above_m, chord_m, sine, cosine, 0.0};
+  }
+  constexpr double kStep_m = 1000.0;  // of height, for the slope and the bow of the lift at the map plane
+  const auto lift_m = [&](double height_m) {
     return earth_.elevation_lift_m(altitude_m_, distance_m, plane_msl_m_ + height_m);
   };
-  const double low_m = at(-kStep_m), plane_m = at(0.0), high_m = at(kStep_m);
-  return {plane_m, (high_m - low_m) / (2.0 * kStep_m), (high_m + low_m - 2.0 * plane_m) / (2.0 * kStep_m * kStep_m)};
-}
-
-PatchGeometry::SightLine PatchGeometry::sight_line(double distance_m) const {
+  const double low_m = lift_m(-kStep_m), plane_m = lift_m(0.0), high_m = lift_m(kStep_m);
+  const double per_metre = (high_m - low_m) / (2.0 * kStep_m);
   const double angle_rad = distance_m * earth_.curvature();
   const double sine = std::sin(angle_rad);
-  const auto [lift_m, per_metre, bow] = lift(distance_m);
-  return {altitude_m_ + earth_.drop_m(distance_m) - lift_m + per_metre * plane_msl_m_,
-          angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m, sine, std::cos(angle_rad) + per_metre, bow};
+  return {altitude_m_ + earth_.drop_m(distance_m) - plane_m + per_metre * plane_msl_m_, earth_.radius_m() * sine, sine,
+          std::cos(angle_rad) + per_metre, (high_m + low_m - 2.0 * plane_m) / (2.0 * kStep_m * kStep_m)};
 }
 
 PatchGeometry::PlaneSight PatchGeometry::plane_sight(double distance_m) const {
-  const auto [lift_m, per_metre, bow] = lift(distance_m);
-  const double above_m = altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m) - lift_m;
-  return {above_m / (1.0 + per_metre), distance_m / (1.0 + per_metre)};
+  const SightLine line = sight_line(distance_m);
+  return {line.above_m / line.cosine - plane_msl_m_, distance_m / line.cosine};
 }
 
 double PatchGeometry::slant_range_m() const {

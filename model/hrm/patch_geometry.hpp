@@ -74,7 +74,7 @@ class PatchGeometry {
   // The point at a distance over ground and at a height above the map plane has the tangent of elevation
   // (height - above_plane_m()) / sight_distance_m(). The earth's curvature lowers the plane, refraction lifts it.
   // above_plane_m(): height [m] of the aircraft above the plane's point, along the vertical at the aircraft.
-  // sight_distance_m(): the distance, less than 1 % longer where refraction lifts low points more than high ones.
+  // sight_distance_m(): the distance, up to 1 % longer where refraction lifts low points more than high ones.
   double above_plane_m(double distance_m) const { return plane_sight(distance_m).above_m; }
   double sight_distance_m(double distance_m) const { return plane_sight(distance_m).distance_m; }
   // Height [m] of the aircraft above the local horizontal plane at the map plane's point at a distance over ground. If
@@ -105,11 +105,6 @@ class PatchGeometry {
   geo::Angle squint(geo::Bearing ground_track) const { return up_ - ground_track; }  // positive: right of the track
 
  private:
-  struct Lift {
-    double plane_m, per_metre, bow;  // of the map plane's point, and its growth with height h: h (per_metre + h bow)
-  };
-  Lift lift(double distance_m) const;
-
   geo::GeoPoint apex_;
   double altitude_m_;
   double plane_msl_m_;
@@ -117,6 +112,7 @@ class PatchGeometry {
   geo::Bearing up_;
   double window_m_;
   physics::EffectiveEarth earth_, earth_above_plane_;
+  terrain::SightSeries series_;
 };
 
 // Distance over ground [m] of the point on the map plane at the slant range of a scatterer (layover, foreshortening).

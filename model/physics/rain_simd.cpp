@@ -1,6 +1,7 @@
 #include "model/physics/rain_simd.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -105,21 +106,18 @@ class RainVector {
     const auto curvature = set(c.curvature);
     const auto angle = hn::Mul(distance_m_, curvature);
     const auto square = hn::Mul(angle, angle);
-    // Series in the angle, truncated before the fifth power.
-    drop_m_ = hn::Mul(hn::Mul(distance_m_, angle), fused::neg_mul_add(square, set(0.0416666667F), set(0.5F)));
+    // terrain::SightSeries.
+    const auto& series = c.lift.sight;
+    drop_m_ = hn::Mul(hn::Mul(distance_m_, angle), fused::mul_add(square, set(series.fall_square), set(series.fall)));
     chord_m_ = fused::neg_mul_add(hn::Mul(distance_m_, square), set(0.166666667F), distance_m_);
     sine_ = hn::Mul(chord_m_, curvature);
-    cosine_ = fused::neg_mul_add(drop_m_, curvature, set(1.0F));
+    tilt_ = fused::neg_mul_add(square, fused::mul_add(square, set(series.tilt_square), set(series.tilt)),
+                               set(series.upright));
     const Direction ground_point = to_height(height_m);
     slant_square_ = hn::Max(square_of(ground_point), set(1.0F));
     distance_inverse_ = hn::Div(set(1.0F), hn::Max(distance_m_, set(1e-3F)));
-    // EffectiveEarth::sag_m().
-    const auto ground_m2 = hn::Mul(distance_m_, distance_m_);
-    const auto grazing =
-        fused::mul_add(height_m, set(c.lift.grazing_per_height),
-                       fused::mul_add(ground_m2, set(c.lift.grazing_per_square), set(c.lift.grazing_level)));
-    const auto lifts_m = fused::mul_add(ground_m2, grazing, lift_m(slant_square_, height_m));
-    sag_m_ = hn::Mul(fused::mul_sub(distance_m_, angle, lifts_m), set(0.5F));
+    const auto sag = fused::mul_add(square, set(c.lift.sag_square), set(c.lift.sag));
+    sag_m_ = hn::Mul(hn::Mul(distance_m_, angle), fused::mul_add(height_m, set(c.lift.sag_height), sag));
     const auto fall_m = hn::Sub(hn::Sub(height_m, set(c.altitude_m)), sag_m_);
     // A ray that is level within a millimetre is taken to fall by a millimetre, because stretch() divides by its fall.
     fall_m_ = hn::IfThenElse(hn::Lt(hn::Abs(fall_m), set(1e-3F)), set(-1e-3F), fall_m);
@@ -149,16 +147,8 @@ class RainVector {
 
  private:
   HWY_INLINE Direction to_height(RainFloats height_m) const {
-    const Direction straight{fused::mul_add(height_m, sine_, chord_m_),
-                             fused::mul_sub(height_m, cosine_, hn::Add(drop_m_, set(c_.altitude_m)))};
-    return {straight.out, hn::Add(straight.up, lift_m(square_of(straight), height_m))};
-  }
-  // terrain::RayLift::at_m().
-  HWY_INLINE RainFloats lift_m(RainFloats square_m2, RainFloats height_m) const {
-    const auto far_m2 = hn::Min(square_m2, set(c_.lift.max_square_m2));
-    const auto here = fused::mul_add(far_m2, set(c_.lift.per_square), set(c_.lift.level));
-    const auto per_height = fused::mul_add(far_m2, set(c_.lift.per_both), set(c_.lift.per_height));
-    return hn::Mul(square_m2, fused::mul_add(height_m, per_height, here));
+    return {fused::mul_add(height_m, sine_, chord_m_),
+            fused::mul_sub(height_m, tilt_, hn::Add(drop_m_, set(c_.lift.sight.altitude_m)))};
   }
   static HWY_INLINE RainFloats square_of(Direction to) { return fused::mul_add(to.out, to.out, hn::Mul(to.up, to.up)); }
 
@@ -246,8 +236,8 @@ class RainVector {
   const RainConstants& c_;
   const radar::BeamPattern beam_;
   const RainFloats horizon_;
-  RainFloats distance_m_, drop_m_, chord_m_, sine_, cosine_;  // as in EffectiveEarth::sight()
-  RainFloats slant_square_;                                   // of the ground
+  RainFloats distance_m_, drop_m_, chord_m_, sine_, tilt_;  // as in terrain::SightSeries
+  RainFloats slant_square_;                                 // of the ground
   RainFloats distance_inverse_;
   RainFloats sag_m_, fall_m_;  // coefficients of height_at()
   RainFloats lower_ = hn::Zero(RainTag());
@@ -345,6 +335,7 @@ void RainSamples::enter(const SweepGeometry& geometry) {
 
 simd::RainConstants RainSamples::constants(const SweepGeometry& geometry, const EffectiveEarth& earth,
                                            const Receiver& receiver) const {
+  const std::array<float, 1> reach_m{static_cast<float>(geometry.range.metres())};
   const double elevation_rad = geometry.elevation.radians();
   const double beam_rad = receiver.elevation_beamwidth_rad;
   const double centre_rad = std::max(-elevation_rad, 0.5 * beam_rad);
@@ -352,7 +343,7 @@ simd::RainConstants RainSamples::constants(const SweepGeometry& geometry, const 
   simd::RainConstants c;
   c.altitude_m = static_cast<float>(geometry.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
-  c.lift = in_float(earth.lift());
+  c.lift = in_float(earth.lift(), {geometry.altitude.metres(), earth.curvature(), {}, reach_m});
   c.half_stc = static_cast<float>(0.5 * receiver.stc_exponent);
   c.stc_octaves = static_cast<float>(receiver.stc_exponent * std::log2(receiver.stc_range_m));
   c.sin_elevation = static_cast<float>(std::sin(elevation_rad));

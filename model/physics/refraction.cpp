@@ -175,10 +175,12 @@ LiftSeries Refraction::series(double altitude_m, double radius_m) const {
   const auto below = std::min(static_cast<std::size_t>(index), by_altitude_.size() - 2);
   const double fraction = index - static_cast<double>(below);
   LiftSeries lifts = combined(by_altitude_[below], 1.0 - fraction, by_altitude_[below + 1], fraction);
-  // Far above the air, the air is a part of the way that falls with the altitude, near the far end.
-  const double part = kHighestTabled_m / std::max(altitude_m, kHighestTabled_m);
-  lifts = combined({lifts.of_elevation, 0.0, 0.0, 0.0}, part * part,
-                   {{}, lifts.level, lifts.per_square, lifts.per_height}, part);
+  if (altitude_m > kHighestTabled_m) {
+    // The air is a part of the way that falls with the altitude, near the far end.
+    const double part = kHighestTabled_m / altitude_m;
+    lifts = combined({lifts.of_elevation, 0.0, 0.0, 0.0}, part * part,
+                     {{}, lifts.level, lifts.per_square, lifts.per_height}, part);
+  }
   // A ray's height depends on the square of the distance over the earth's radius.
   const double flatter = kRadius_m / radius_m;
   lifts.of_elevation.per_square *= flatter;
@@ -200,11 +202,22 @@ std::shared_ptr<const TracedLifts> Refraction::traced(double altitude_m) const {
   return traced_;
 }
 
-simd::Lift in_float(const LiftSeries& lift) {
-  const auto& of = lift.of_elevation;
-  return {static_cast<float>(of.level),        static_cast<float>(of.per_height),    static_cast<float>(of.per_square),
-          static_cast<float>(of.per_both),     static_cast<float>(of.max_square_m2), static_cast<float>(lift.level),
-          static_cast<float>(lift.per_square), static_cast<float>(lift.per_height)};
+simd::Lift in_float(const LiftSeries& lift, terrain::RaySight sight) {
+  simd::Lift found;
+  sight.lift = lift.of_elevation;
+  found.sight = terrain::sight_series(sight);
+  if (!(sight.curvature > 0.0)) return found;
+  const auto& near = lift.of_elevation;
+  const double radius_m = 1.0 / sight.curvature, square_m2 = radius_m * radius_m;
+  // The level falls by (radius + altitude) (1 - cos a).
+  const double over_m = radius_m + sight.altitude_m;
+  found.level = static_cast<float>(-0.5 * over_m + lift.level * square_m2);
+  found.level_square = static_cast<float>(over_m / 24.0 + lift.per_square * square_m2 * square_m2);
+  found.level_height = static_cast<float>(lift.per_height * square_m2);
+  found.sag = static_cast<float>(0.5 - 0.5 * (near.level + lift.level) * radius_m);
+  found.sag_square = static_cast<float>(-0.5 * (near.per_square + lift.per_square) * square_m2 * radius_m);
+  found.sag_height = static_cast<float>(-0.5 * (near.per_height + lift.per_height) * radius_m);
+  return found;
 }
 
 // ---- Traced rays ----------------------------------------------------------------------------------------------------

@@ -32,14 +32,19 @@ struct LiftSeries {
   }
 };
 
-// LiftSeries in float, for vectors.
+// LiftSeries in float, for vectors. a is the distance over the radius, h the height, d the distance over ground.
 namespace simd {
 struct Lift {
-  float level = 0.0F, per_height = 0.0F, per_square = 0.0F, per_both = 0.0F, max_square_m2 = 0.0F;  // of the elevation
-  float grazing_level = 0.0F, grazing_per_square = 0.0F, grazing_per_height = 0.0F;
+  terrain::SightSeries sight;
+  // Slant range times the sine of the grazing angle: altitude + a a (level + level_square a a) - h (1 - level_height a
+  // a).
+  float level = 0.0F, level_square = 0.0F, level_height = 0.0F;
+  // EffectiveEarth::sag_m(): d a (sag + sag_square a a + sag_height h).
+  float sag = 0.5F, sag_square = 0.0F, sag_height = 0.0F;
 };
 }  // namespace simd
-simd::Lift in_float(const LiftSeries& lift);
+// `sight` has the observer and, as its last distance, the greatest one. Its lift is not used.
+simd::Lift in_float(const LiftSeries& lift, terrain::RaySight sight);
 
 // Lifts from one altitude, interpolated between traced rays (Chebyshev polynomials in squared distance and height).
 class TracedLifts {

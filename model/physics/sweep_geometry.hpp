@@ -105,6 +105,7 @@ class EffectiveEarth {
   double curvature() const { return 1.0 / radius_m_; }  // [1/m] 0 = flat
   // Lifts of the fast path. sight() and tangent() use traced rays instead where the algorithm is `reference`.
   const LiftSeries& lift() const { return lift_; }
+  bool traced() const { return traced_ != nullptr; }
   // The same earth for altitudes and heights above a level at this height above mean sea level.
   EffectiveEarth above(double level_m) const;
 

@@ -81,7 +81,7 @@ void RayCrests::split(const physics::PolarPassage& passage, std::span<const floa
 // crest of a sample excludes the ground at the sample itself.
 void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight) {
   if (last_short_ == 0) return;
-  const physics::EffectiveEarth earth(1.0 / sight.curvature, {sight.lift});
+  const terrain::SightSeries series = terrain::sight_series(sight);
   const std::size_t count = last_short_ - first_short_;
   const terrain::PositionRun all = pieces_.run();
   const auto of_short = [&](std::span<const float> values) { return values.subspan(first_short_, count); };
@@ -98,9 +98,8 @@ void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const t
       continue;
     }
     if (std::isnan(peak_m_[i])) continue;
-    const double distance_m = static_cast<double>(distance_m_[i]);
-    const physics::Sight peak = earth.sight(sight.altitude_m, distance_m, static_cast<double>(peak_m_[i]));
-    crest_[i] = std::max(crest_[i], static_cast<float>(peak.tangent));
+    const terrain::SightSeries::Line line = series.at(sight.curvature, static_cast<double>(distance_m_[i]));
+    crest_[i] = std::max(crest_[i], static_cast<float>(line.tangent(static_cast<double>(peak_m_[i]))));
   }
 }
 
@@ -148,17 +147,18 @@ bool SightLine::clear(const physics::GeometryParameters& parameters, const physi
   const auto all = [](memory::CacheAlignedVector<float>& values) { return std::span(values).first(kSamples); };
   terrain.surfaces(positions_.run(), radar::Interpolation::bilinear,
                    {all(elevation_m_), all(water_), all(peak_m_), {}});
-  const double tangent = earth.tangent(geometry.altitude.metres(), distance_m, altitude_m);
+  const terrain::RaySight ray{geometry.altitude.metres(), earth.curvature(), earth.lift().of_elevation,
+                              all(distance_m_)};
+  const terrain::SightSeries series = terrain::sight_series(ray);
+  const double tangent = series.at(earth.curvature(), distance_m).tangent(altitude_m);
   for (std::size_t i = 0; i + 1 < kSamples; ++i) {
     const double height_m = std::isnan(peak_m_[i]) ? 0.0 : static_cast<double>(peak_m_[i]);
     const auto along_m = static_cast<double>(distance_m_[i]);
     if (lies_below(earth, geometry.altitude.metres(), tangent, along_m, height_m)) continue;
-    if (earth.tangent(geometry.altitude.metres(), along_m, height_m) >= tangent) return false;
+    if (series.at(earth.curvature(), along_m).tangent(height_m) >= tangent) return false;
   }
-  if (!ray_crests_.find(
-          terrain, {geometry.apex, path.azimuth_at_start, path.distance, parameters.geodesic_knots}, positions_,
-          {geometry.altitude.metres(), earth.curvature(), earth.lift().of_elevation, all(distance_m_), {}},
-          all(crest_)))
+  if (!ray_crests_.find(terrain, {geometry.apex, path.azimuth_at_start, path.distance, parameters.geodesic_knots},
+                        positions_, ray, all(crest_)))
     return true;
   return static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)) < tangent;
 }

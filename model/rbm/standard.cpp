@@ -233,7 +233,8 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   simd::SweepConstants c;
   c.altitude_m = static_cast<float>(geometry.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
-  c.lift = physics::in_float(earth.lift());
+  const std::array<float, 1> farthest_m{distance_.data()[count_ - 1]};
+  c.lift = physics::in_float(earth.lift(), {geometry.altitude.metres(), earth.curvature(), {}, farthest_m});
   c.land_gamma = static_cast<float>(receiver.land_gamma);
   c.pulse_inverse = static_cast<float>(1.0 / receiver.pulse_length_m);
   c.beam_inverse = static_cast<float>(1.0 / beam_rad);

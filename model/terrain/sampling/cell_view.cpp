@@ -166,11 +166,13 @@ float even_spacing_m(std::span<const float> distance_m) {
 // The observer's part of a ray.
 crests::Ray ray_of(const RaySight& sight) {
   crests::Ray ray;
-  ray.altitude_m = static_cast<float>(sight.altitude_m);
   ray.curvature = static_cast<float>(sight.curvature);
-  ray.lift = sight.lift;
-  const auto reach_m = static_cast<double>(sight.distance_m.empty() ? 0.0F : sight.distance_m.back());
-  ray.lift_bound = static_cast<float>(sight.lift.bound(reach_m * reach_m));
+  ray.series = sight_series(sight);
+  // Less a thousandth of the drop for the series and rounding; the growth of the lift is greater on low ground.
+  constexpr double kLowGround = 1.3;
+  ray.least_fall = static_cast<float>(0.4995 * sight.curvature - 1.001 * sight.lift.level);
+  ray.lift_per_height = static_cast<float>(sight.lift.per_height);
+  ray.lift_per_square = static_cast<float>(kLowGround * std::max(0.0, sight.lift.per_square));
   return ray;
 }
 

@@ -58,38 +58,28 @@ class Observer {
  public:
   HWY_INLINE explicit Observer(const Ray& ray)
       : curvature_(hn::Set(FloatLanes(), ray.curvature)),
-        altitude_m_(hn::Set(FloatLanes(), ray.altitude_m)),
-        level_(all(ray.lift.level)),
-        per_height_(all(ray.lift.per_height)),
-        per_square_(all(ray.lift.per_square)),
-        per_both_(all(ray.lift.per_both)),
-        max_square_m2_(all(ray.lift.max_square_m2)) {}
+        altitude_m_(hn::Set(FloatLanes(), ray.series.altitude_m)),
+        upright_(hn::Set(FloatLanes(), ray.series.upright)),
+        fall_(hn::Set(FloatLanes(), ray.series.fall)),
+        fall_square_(hn::Set(FloatLanes(), ray.series.fall_square)),
+        tilt_(hn::Set(FloatLanes(), ray.series.tilt)),
+        tilt_square_(hn::Set(FloatLanes(), ray.series.tilt_square)) {}
 
-  // Ground at a distance and a height. angle: at the earth's centre [rad]. drop_m and chord_m: series of (1 - cos
-  // angle) and sin angle, times the radius; the same as in model/rbm/sweep_simd.cpp. Lift: RayLift::at_m().
+  // Ground at a distance and a height. angle: at the earth's centre [rad]; SightSeries. The same as in
+  // model/rbm/sweep_simd.cpp.
   HWY_INLINE Sight sight_of(Floats distance_m, Floats height_m) const {
     const FloatLanes d;
     const auto angle = hn::Mul(distance_m, curvature_);
     const auto square = hn::Mul(angle, angle);
-    const auto fall = fused::neg_mul_add(square, hn::Set(d, 0.0416666667F), hn::Set(d, 0.5F));
-    const auto drop_m = hn::Mul(hn::Mul(distance_m, angle), fall);
+    const auto drop_m = hn::Mul(hn::Mul(distance_m, angle), fused::mul_add(square, fall_square_, fall_));
+    const auto tilt = fused::neg_mul_add(square, fused::mul_add(square, tilt_square_, tilt_), upright_);
     const auto chord_m = fused::neg_mul_add(hn::Mul(distance_m, square), hn::Set(d, 0.166666667F), distance_m);
     const auto sine = hn::Mul(chord_m, curvature_);
-    const auto cosine = fused::neg_mul_add(drop_m, curvature_, hn::Set(d, 1.0F));
-    const auto out_m = fused::mul_add(height_m, sine, chord_m);
-    const auto up_m = fused::mul_sub(height_m, cosine, hn::Add(drop_m, altitude_m_));
-    const auto slant_m2 = fused::mul_add(out_m, out_m, hn::Mul(up_m, up_m));
-    const auto far_m2 = hn::Min(slant_m2, max_square_m2_);
-    const auto here = fused::mul_add(far_m2, per_square_, level_);
-    const auto per_height = fused::mul_add(far_m2, per_both_, per_height_);
-    return {out_m, fused::mul_add(slant_m2, fused::mul_add(height_m, per_height, here), up_m)};
+    return {fused::mul_add(height_m, sine, chord_m), fused::mul_sub(height_m, tilt, hn::Add(drop_m, altitude_m_))};
   }
 
  private:
-  static HWY_INLINE Floats all(double value) { return hn::Set(FloatLanes(), static_cast<float>(value)); }
-
-  Floats curvature_, altitude_m_;
-  Floats level_, per_height_, per_square_, per_both_, max_square_m2_;
+  Floats curvature_, altitude_m_, upright_, fall_, fall_square_, tilt_, tilt_square_;
 };
 
 // True where the tangent of `sight` may reach the floor. The product needs no division, and is loose by more than the

@@ -112,7 +112,6 @@ class RayPiece {
  private:
   static constexpr float kMaxBend_posts = 0.1F;   // [posts] of bend^2 / way: a crossing is 0.01 posts off at most
   static constexpr float kMinBend_posts = 0.01F;  // [posts] four times the distance from a straight piece
-  static constexpr float kMaxDepth_m = 12000.0F;  // of ground below mean sea level
   static constexpr float kPartPosts = 13.0F;      // [posts] length within the reach of one ceiling
   static_assert(kPartPosts / 2 + 1.5F <= Ceilings::kReach);
   // Positions along one axis [posts]: from + f (to - from) + f (1 - f) bend at the fraction f of the piece.
@@ -156,12 +155,11 @@ class RayPiece {
     }
     const float near_m = from_m_ + from * piece_m_, far_m = from_m_ + to * piece_m_;
     const float floor = ray_.floor[start_ + static_cast<std::size_t>(std::max(0.0F, from * steps_))];
-    // The drop of the earth's surface is that at the near end, less a thousandth for the series and rounding, and less
-    // the bound of the lift, which grows more slowly with distance. The lift also grows with the height difference.
-    const float below_m = ray_.altitude_m + kMaxDepth_m + 0.5F * far_m * far_m * ray_.curvature;
-    const float up_m = static_cast<float>(highest) * grid_.unit_m -
-                       near_m * near_m * (0.4995F * ray_.curvature - ray_.lift_bound) - ray_.altitude_m +
-                       ray_.lift_bound * below_m * below_m;
+    // The drop of the earth's surface is that at the near end, less a thousandth for the series and rounding. The lift
+    // of the highest ground is the greatest height: a lower point is lifted more, but by less than it is lower.
+    const float height_m = static_cast<float>(highest) * grid_.unit_m;
+    const float fall = ray_.least_fall - ray_.lift_per_height * height_m - ray_.lift_per_square * far_m * far_m;
+    const float up_m = height_m * ray_.series.upright - near_m * near_m * fall - ray_.series.altitude_m;
     const float out_m = up_m < 0.0F ? far_m * 1.01F : near_m * 0.99F;
     return up_m + 1.0F < floor * out_m;
   }

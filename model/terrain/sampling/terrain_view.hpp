@@ -91,15 +91,27 @@ struct RayLift {
     return square_m2 *
            (level + per_height * height_m + std::min(square_m2, max_square_m2) * (per_square + per_both * height_m));
   }
-  // Upper bound of lift / s up to a squared slant range, for all ground.
-  double bound(double square_m2) const {
-    double highest = 0.0;
-    for (const double s : {0.0, std::min(square_m2, max_square_m2)})
-      for (const double height_m : {-12'000.0, 10'000.0})
-        highest = std::max(highest, level + per_height * height_m + s * (per_square + per_both * height_m));
-    return highest;
-  }
 };
+
+// The height `up` of the fast path, with the lift: h tilt(a a) - d a fall(a a) - altitude_m. h and d are height and
+// distance of the point, a = d / radius. fall(x) = fall + fall_square x, tilt(x) = upright - x (tilt + tilt_square x).
+// The defaults are the series of 1 - cos a and cos a. The lift is within 0.1 m of RayLift::at_m() for points up to 4 km
+// high: it is linear in height.
+struct SightSeries {
+  float fall = 0.5F, fall_square = -1.0F / 24.0F;
+  float upright = 1.0F, tilt = 0.5F, tilt_square = -1.0F / 24.0F;
+  float altitude_m = 0.0F;
+
+  // Coefficients at one distance: the tangent of elevation is (h cosine - above) / (chord + h sine). `curvature`: of
+  // the sphere.
+  struct Line {
+    double above_m, chord_m, sine, cosine;
+    double tangent(double height_m) const { return (height_m * cosine - above_m) / (chord_m + height_m * sine); }
+  };
+  Line at(double curvature, double distance_m) const;
+};
+struct RaySight;
+SightSeries sight_series(const RaySight& sight);
 
 // Geometry of a ray from an observer at its start, over a sphere: the earth with the lift of refraction, or an
 // effective earth, whose radius accounts for refraction.
@@ -107,7 +119,7 @@ struct RaySight {
   double altitude_m = 0.0;  // [m] MSL of the observer
   double curvature = 0.0;   // [1/m] of the sphere
   RayLift lift{};
-  std::span<const float> distance_m;  // [m] ground distance of the positions, ascending
+  std::span<const float> distance_m{};  // [m] ground distance of the positions, ascending
   // For each position, the highest tangent of all positions up to it, itself included. Crests below it hide nothing,
   // and crests() may leave them out, as well as the ground shortly before evenly spaced positions (NearGround).
   // Empty: all crests are found.
