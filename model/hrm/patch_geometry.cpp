@@ -22,7 +22,7 @@ PatchGeometry::PatchGeometry(const PatchOrder& order, const physics::GeometryPar
   up_ = geodesic.azimuth_at_start;
   earth_ = physics::effective_earth(parameters, apex_, order.altitude, up_);
   earth_above_plane_ = earth_.above(plane_msl_m_);
-  const std::array<float, 1> reach_m{static_cast<float>(2.0 * (distance_m_ + window_m_))};
+  const std::array<float, 1> reach_m{static_cast<float>(distance_m_ + window_m_)};
   series_ = terrain::sight_series({altitude_m_, earth_.curvature(), earth_.lift().of_elevation, reach_m});
 }
 

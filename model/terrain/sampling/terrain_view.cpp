@@ -21,11 +21,10 @@ SightSeries::Line SightSeries::at(double curvature, double distance_m) const {
           static_cast<double>(upright) - square * t};
 }
 
-// The squared slant range is that over ground plus that in height, v v with v = h - altitude - drop. About the height
-// h0 the latter is 2 h (h0 - altitude - drop) + (altitude + drop)^2 - h0^2 + (h - h0)^2; the last term is left out.
+// The squared slant range is that over ground plus that in height, (h - altitude - drop)^2. In it h h is taken as p h.
+// It is exact for ground at sea level and, up to 9 km, for ground at the altitude of the observer.
 SightSeries sight_series(const RaySight& sight) {
-  constexpr double kMiddle_m = 2000.0;  // h0
-  const double altitude_m = sight.altitude_m;
+  const double altitude_m = sight.altitude_m, p_m = std::min(altitude_m, 9000.0);
   SightSeries series;
   series.altitude_m = static_cast<float>(altitude_m);
   if (!(sight.curvature > 0.0)) return series;
@@ -43,10 +42,10 @@ SightSeries sight_series(const RaySight& sight) {
   series.fall = static_cast<float>(0.5 * (1.0 - 2.0 * altitude_m * steep) - lift.level * radius_m);
   series.fall_square =
       static_cast<float>(-1.0 / 24.0 - 0.25 * steep * radius_m - lift.per_square * square_m2 * radius_m);
-  series.upright = static_cast<float>(1.0 + 2.0 * steep * (kMiddle_m - altitude_m));
+  series.upright = static_cast<float>(1.0 + steep * (p_m - 2.0 * altitude_m));
   series.tilt = static_cast<float>(0.5 + steep * radius_m - lift.per_height * square_m2);
   series.tilt_square = static_cast<float>(-1.0 / 24.0 - lift.per_both * square_m2 * square_m2);
-  series.altitude_m = static_cast<float>(altitude_m - steep * (altitude_m * altitude_m - kMiddle_m * kMiddle_m));
+  series.altitude_m = static_cast<float>(altitude_m - steep * altitude_m * altitude_m);
   return series;
 }
 

@@ -95,7 +95,7 @@ struct RayLift {
 
 // The height `up` of the fast path, with the lift: h tilt(a a) - d a fall(a a) - altitude_m. h and d are height and
 // distance of the point, a = d / radius. fall(x) = fall + fall_square x, tilt(x) = upright - x (tilt + tilt_square x).
-// The defaults are the series of 1 - cos a and cos a. The lift is within 0.1 m of RayLift::at_m() for points up to 4 km
+// The defaults are the series of 1 - cos a and cos a. The lift is within 0.4 m of RayLift::at_m() for points up to 4 km
 // high: it is linear in height.
 struct SightSeries {
   float fall = 0.5F, fall_square = -1.0F / 24.0F;

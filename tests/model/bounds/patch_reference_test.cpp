@@ -78,7 +78,7 @@ Viewpoint view_from(double from_deg, double distance_m, double above_m, double w
 TEST(Standard, EqualsTheReferenceOverLevelGround) {
   const Setting setting{view_from(200.0, 37040.0, 4572.0, 1241.0), terrain::flat(kGround_m), {}};
   const Difference found = measure("level", setting, 96);
-  EXPECT_NEAR(found.power, 0.0, 0.001);
+  EXPECT_NEAR(found.power, 0.0, 0.002);  // the refraction of the fast path: 0.12 mrad of 7 degrees
   EXPECT_EQ(found.shadow, 0.0);
   EXPECT_LT(found.rms_db, 0.02);
 }
