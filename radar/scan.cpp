@@ -241,8 +241,7 @@ Expected<const ScanLabels*> Scan::labels(const Call& call) {
     const std::size_t width = samples.size() / headers.size();
     for (std::size_t sweep = 0; sweep < headers.size(); ++sweep) {
       const auto geometry = model::kernel::geometry_of(headers[sweep]);
-      const auto earth =
-          model::physics::effective_earth(work_->configuration.fidelity, geometry.apex, geometry.azimuth);
+      const auto earth = model::physics::effective_earth(work_->configuration, geometry);
       label_samples(labels, sweep * width, std::span(samples).subspan(sweep * width, width), geometry, earth,
                     work_->scene);
       label_layover(labels, sweep * width, width);

@@ -195,8 +195,8 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given,
     geometry.elevation = geo::Angle();
     algorithm->measure(geometry, terrain, power);
     algorithm->lit(lit);
-    const auto earth = model::physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
-    model::physics::sample_distances(configuration.fidelity, earth, geometry, terrain, distance_m);
+    const auto earth = model::physics::effective_earth(configuration, geometry);
+    model::physics::sample_distances(configuration, earth, geometry, terrain, distance_m);
     const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
     for (std::size_t i = 0; i < count; ++i) {
       samples.push_back(sample_at(configuration, ray, distance_m[i], terrain));

@@ -227,7 +227,8 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .lowest = 0.5,
        .highest = 10,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.earth_radius_factor)},
-       .purpose = "effective earth radius factor for refraction; 1 = no refraction"},
+       .purpose = "effective earth radius factor for refraction; 1 = no refraction; when omitted, the refractivity of "
+                  "the atmosphere bends the rays"},
       {.name = "samples",
        .lowest = values::ScanRequest::samples.low,
        .highest = values::ScanRequest::samples.high,

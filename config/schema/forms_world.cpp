@@ -271,16 +271,21 @@ FormSchema rain() {
 
 FormSchema atmosphere() {
   return {.name = "Atmosphere",
-          .purpose = "the air at mean sea level, and attenuation by its gases (ITU-R P.676-13, P.835)",
+          .purpose = "the air at mean sea level, attenuation by its gases (ITU-R P.676-13, P.835), and its refraction",
           .slots = {{.name = "gases",
                      .binding = BooleanSlot{YARS_FIELD(radar.world.atmosphere.gases)},
                      .purpose = "oxygen and water vapour attenuate; not with the preset 1996"},
                     number_slot("temperature", "deg C", -60, 60, {YARS_FIELD(radar.world.atmosphere.temperature_c)},
                                 "temperature at mean sea level; falls by 6.5 degrees per km up to 11 km"),
                     number_slot("pressure", "hPa", 500, 1100, {YARS_FIELD(radar.world.atmosphere.pressure_hpa)},
-                                "pressure of the dry air at mean sea level"),
+                                "pressure at mean sea level, of dry air and water vapour together"),
                     number_slot("waterVapour", "g/m3", 0, 50, {YARS_FIELD(radar.world.atmosphere.water_g_m3)},
-                                "density at mean sea level; falls to 1/e every 2 km")}};
+                                "density at mean sea level; falls to 1/e every 2 km"),
+                    number_slot("refractivity", "", 0, 450, {YARS_FIELD(radar.world.atmosphere.refractivity)},
+                                "at mean sea level, in N-units: a millionth of the index of refraction above 1"),
+                    number_slot("refractivityPerKm", "1/km", 0.05, 0.25,
+                                {YARS_FIELD(radar.world.atmosphere.refractivity_per_km)},
+                                "c of the fall exp(-c height) of the refractivity")}};
 }
 
 }  // namespace

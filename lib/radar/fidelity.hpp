@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "lib/radar/modes.hpp"
+#include "lib/radar/not_given.hpp"
 
 namespace yars::radar {
 
@@ -29,8 +30,9 @@ struct Fidelity {
   double core_share = 0.25;  // maximum processor load as a fraction of one core, (0, 1]
   Algorithm algorithm = Algorithm::standard;
   EarthModel earth = EarthModel::ellipsoid;
-  double earth_radius_factor = 4.0 / 3.0;  // effective earth radius factor k; 1 = no refraction
-  int samples = 480;                       // range samples of a sweep
+  // Effective earth radius factor k; 1 = no refraction. kNotGiven: rays bend by the refractivity of the atmosphere.
+  double earth_radius_factor = kNotGiven;
+  int samples = 480;  // range samples of a sweep
   // Number of exact geodesic positions of a sweep, 2 to 9. The other positions are interpolated. With 5 or more, a
   // Taylor series (GeodesicSeries) replaces the interpolation where the error of the series is at most 1 mm. 0: every
   // position is exact.

@@ -11,6 +11,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/not_given.hpp"
 #include "lib/values/defaults.hpp"
 
 namespace yars::radar {
@@ -140,12 +141,15 @@ struct Scene {
   std::string without{};  // names of omitted objects and groups, separated by commas; `*` and `?` are wildcards
 };
 
-// Atmosphere at mean sea level. Source: ITU-R P.676 (attenuation by gases), P.835 (profile with height).
+// Atmosphere at mean sea level. Source: ITU-R P.676 (attenuation by gases), P.835 (profile with height), P.453
+// (refractivity; its profile falls exponentially with height).
 struct AtmosphereConfiguration {
-  bool gases = true;              // true: oxygen and water vapour attenuate
-  double temperature_c = 15.0;    // [deg C]
-  double pressure_hpa = 1013.25;  // [hPa] pressure of the dry air
-  double water_g_m3 = 7.5;        // [g/m^3] density of water vapour
+  bool gases = true;                    // true: oxygen and water vapour attenuate
+  double temperature_c = 15.0;          // [deg C]
+  double pressure_hpa = 1013.25;        // [hPa] of dry air and water vapour together
+  double water_g_m3 = 7.5;              // [g/m^3] density of water vapour
+  double refractivity = 313.0;          // [N-units] (index of refraction - 1) times a million
+  double refractivity_per_km = 0.1439;  // [1/km] it falls as exp(-refractivity_per_km height)
 };
 
 struct TerrainConfiguration {

@@ -37,6 +37,7 @@ int max_map_size(radar::Algorithm algorithm) {
 struct PatchFormation::Work {
   Work(const physics::RadarParameters& parameters, parallel::Executor executor, std::size_t points, LabelUse labels)
       : fidelity(parameters.fidelity),
+        geometry_parameters(parameters.geometry),
         high_resolution(parameters.high_resolution),
         array(parameters),
         algorithm(make_algorithm(parameters)),
@@ -60,6 +61,7 @@ struct PatchFormation::Work {
   void draw_video() { algorithm->draw_video(inputs, data); }
 
   radar::Fidelity fidelity;
+  physics::GeometryParameters geometry_parameters;
   radar::HighResolutionConfiguration high_resolution;
   radar::SyntheticArray array;
   std::unique_ptr<Algorithm> algorithm;
@@ -104,7 +106,7 @@ void PatchFormation::Work::begin_map() {
   const PatchOrder& order = inputs.order;
   // If the centre is a void, the map plane is at sea level.
   const double elevation_m = inputs.environment.window->elevation_m(order.centre);
-  data.geometry.emplace(order, fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
+  data.geometry.emplace(order, geometry_parameters, std::isnan(elevation_m) ? 0.0 : elevation_m);
   data.formation = radar::formation_time({geo::Length::metres(data.geometry->slant_range_m()), order.window,
                                           data.geometry->squint(order.ground_track), order.ground_speed, order.looks},
                                          array);

@@ -1,6 +1,7 @@
 #include "model/hrm/patch_geometry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lib/geo/geodesy.hpp"
@@ -14,11 +15,15 @@ PatchGeometry::PatchGeometry(const PatchOrder& order, const physics::GeometryPar
       plane_msl_m_(elevation_m),
       distance_m_(0.0),
       window_m_(order.window.metres()),
-      earth_(0.0) {
+      earth_(0.0),
+      earth_above_plane_(0.0) {
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(order.apex, order.centre);
   distance_m_ = geodesic.distance.metres();
   up_ = geodesic.azimuth_at_start;
-  earth_ = physics::effective_earth(parameters, apex_, up_);
+  earth_ = physics::effective_earth(parameters, apex_, order.altitude, up_);
+  earth_above_plane_ = earth_.above(plane_msl_m_);
+  const std::array<float, 1> reach_m{static_cast<float>(distance_m_ + window_m_)};
+  series_ = terrain::sight_series({altitude_m_, earth_.curvature(), earth_.lift().of_elevation, reach_m});
 }
 
 MapPoint PatchGeometry::point_of(geo::GeoPoint position) const {
@@ -31,20 +36,37 @@ geo::GeoPoint PatchGeometry::position_of(MapPoint point) const {
 }
 
 double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const {
+  return sight_line(distance_m).height_at(tangent, plane_msl_m_);
+}
+
+PatchGeometry::SightLine PatchGeometry::sight_line(double distance_m) const {
+  if (!earth_.traced()) {
+    const auto [above_m, chord_m, sine, cosine] = series_.at(earth_.curvature(), distance_m);
+    return {above_m, chord_m, sine, cosine, 0.0};
+  }
+  constexpr double kStep_m = 1000.0;  // of height, for the slope and the bow of the lift at the map plane
+  const auto lift_m = [&](double height_m) {
+    return earth_.elevation_lift_m(altitude_m_, distance_m, plane_msl_m_ + height_m);
+  };
+  const double low_m = lift_m(-kStep_m), plane_m = lift_m(0.0), high_m = lift_m(kStep_m);
+  const double per_metre = (high_m - low_m) / (2.0 * kStep_m);
   const double angle_rad = distance_m * earth_.curvature();
   const double sine = std::sin(angle_rad);
-  const double chord_m = angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m;
-  // Solves tangent = (height * cosine - above) / (chord + height * sine) for the height above mean sea level.
-  const double above_m = altitude_m_ + earth_.drop_m(distance_m);
-  return (above_m + tangent * chord_m) / (std::cos(angle_rad) - tangent * sine) - plane_msl_m_;
+  return {altitude_m_ + earth_.drop_m(distance_m) - plane_m + per_metre * plane_msl_m_, earth_.radius_m() * sine, sine,
+          std::cos(angle_rad) + per_metre, (high_m + low_m - 2.0 * plane_m) / (2.0 * kStep_m * kStep_m)};
+}
+
+PatchGeometry::PlaneSight PatchGeometry::plane_sight(double distance_m) const {
+  const SightLine line = sight_line(distance_m);
+  return {line.above_m / line.cosine - plane_msl_m_, distance_m / line.cosine};
 }
 
 double PatchGeometry::slant_range_m() const {
-  return std::hypot(distance_m_, above_plane_m(distance_m_));
+  return std::hypot(distance_m_, altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m_));
 }
 
 double PatchGeometry::sin_grazing() const {
-  return earth_.sight(altitude_m_ - plane_msl_m_, distance_m_, 0.0).sin_grazing;
+  return earth_above_plane_.sight(altitude_m_ - plane_msl_m_, distance_m_, 0.0).sin_grazing;
 }
 
 double laid_over_m(double distance_m, double height_m, double above_level_m) {

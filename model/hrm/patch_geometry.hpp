@@ -68,16 +68,38 @@ class PatchGeometry {
   double plane_msl_m() const { return plane_msl_m_; }  // elevation of the map plane
   double altitude_m() const { return altitude_m_; }    // of the aircraft, above mean sea level
   const physics::EffectiveEarth& earth() const { return earth_; }
+  // The same for altitudes and heights above the map plane.
+  const physics::EffectiveEarth& earth_above_plane() const { return earth_above_plane_; }
 
-  // Height [m] of the aircraft above the map plane's point at a distance over ground, along the vertical at the
-  // aircraft. The earth's curvature lowers the point.
-  double above_plane_m(double distance_m) const { return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m); }
+  // The point at a distance over ground and at a height above the map plane has the tangent of elevation
+  // (height - above_plane_m()) / sight_distance_m(). The earth's curvature lowers the plane, refraction lifts it.
+  // above_plane_m(): height [m] of the aircraft above the plane's point, along the vertical at the aircraft.
+  // sight_distance_m(): the distance, up to 1 % longer where refraction lifts low points more than high ones.
+  double above_plane_m(double distance_m) const { return plane_sight(distance_m).above_m; }
+  double sight_distance_m(double distance_m) const { return plane_sight(distance_m).distance_m; }
   // Height [m] of the aircraft above the local horizontal plane at the map plane's point at a distance over ground. If
-  // the point is raised, its slant range decreases in proportion to this height (layover).
+  // the point is raised, its slant range decreases in proportion to this height (layover). Slant ranges are straight.
   double above_level_m(double distance_m) const { return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m); }
   // Height [m] above the map plane of a line of sight at a distance over ground. `tangent`: tangent of the line's
   // elevation angle against the horizontal at the aircraft, positive up.
   double height_on_sight_m(double distance_m, double tangent) const;
+  // The point at a distance over ground and at the height h above mean sea level has the tangent of elevation
+  // (h * cosine - above + bow p^2) / (chord + h * sine), p its height above the map plane. The terms beside the
+  // geometry are the lift by refraction. height_at() inverts it.
+  struct SightLine {
+    double above_m, chord_m, sine, cosine, bow;
+    // [m] above the plane at `plane_msl_m`. The term in p is far less than p.
+    double height_at(double tangent, double plane_msl_m) const {
+      const double per_metre = 1.0 / (cosine - tangent * sine);
+      const double height_m = (above_m + tangent * chord_m) * per_metre - plane_msl_m;
+      return height_m - bow * height_m * height_m * per_metre;
+    }
+  };
+  SightLine sight_line(double distance_m) const;
+  struct PlaneSight {
+    double above_m, distance_m;
+  };
+  PlaneSight plane_sight(double distance_m) const;
   double slant_range_m() const;  // from aircraft to centre
   double sin_grazing() const;    // sine of the grazing angle at the centre
   geo::Angle squint(geo::Bearing ground_track) const { return up_ - ground_track; }  // positive: right of the track
@@ -89,7 +111,8 @@ class PatchGeometry {
   double distance_m_;
   geo::Bearing up_;
   double window_m_;
-  physics::EffectiveEarth earth_;
+  physics::EffectiveEarth earth_, earth_above_plane_;
+  terrain::SightSeries series_;
 };
 
 // Distance over ground [m] of the point on the map plane at the slant range of a scatterer (layover, foreshortening).

@@ -64,12 +64,15 @@ CrestsBetweenRows crests_between_rows(const PolarGrid& grid, const terrain::Terr
 }
 
 PolarGround::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
-  const physics::EffectiveEarth& earth = geometry.earth();
-  const double angle_rad = distance_m * earth.curvature();
-  above_m = static_cast<float>(geometry.altitude_m() + earth.drop_m(distance_m));
-  chord_m = static_cast<float>(angle_rad > 0.0 ? earth.radius_m() * std::sin(angle_rad) : distance_m);
-  sine = static_cast<float>(std::sin(angle_rad));
-  cosine = static_cast<float>(std::cos(angle_rad));
+  const PatchGeometry::SightLine line = geometry.sight_line(distance_m);
+  above_m = static_cast<float>(line.above_m);
+  chord_m = static_cast<float>(line.chord_m);
+  sine = static_cast<float>(line.sine);
+  cosine = static_cast<float>(line.cosine);
+  bow = static_cast<float>(line.bow);
+  const PatchGeometry::PlaneSight plane = geometry.plane_sight(distance_m);
+  above_plane_m = static_cast<float>(plane.above_m);
+  this->distance_m = static_cast<float>(plane.distance_m);
 }
 
 PolarGround::Column::Column(std::size_t samples)
@@ -107,7 +110,8 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     window_->distance_m[row] = static_cast<float>(distance_m);
     row_sight_.emplace_back(geometry, distance_m);
     const double above_m = geometry.altitude_m() - geometry.plane_msl_m();
-    sin_grazing_[row] = static_cast<float>(std::max(0.0, geometry.earth().sight(above_m, distance_m, 0.0).sin_grazing));
+    sin_grazing_[row] =
+        static_cast<float>(std::max(0.0, geometry.earth_above_plane().sight(above_m, distance_m, 0.0).sin_grazing));
     sea_divisor_[row] = sin_grazing_[row] > 0.0F ? sin_grazing_[row] : std::numeric_limits<float>::infinity();
   }
   const double path_m = grid.first_distance_m;
@@ -232,15 +236,22 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
   const std::size_t pending = view.surfaces(column.positions.run(), interpolation_, found);
   const std::vector<float>& top_m = peaks ? column.peak_m : column.elevation_m;
   float tangent = terrain::kNoTangent;
+  const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   for (std::size_t i = 0; i + 1 < samples; ++i) {
     const Sight& sight = path_sight_[i];
-    const float sample_tangent = (top_m[i] * sight.cosine - sight.above_m) / (sight.chord_m + top_m[i] * sight.sine);
+    const float over_m = top_m[i] - plane_m;
+    const float sample_tangent = (top_m[i] * sight.cosine - sight.above_m + sight.bow * over_m * over_m) /
+                                 (sight.chord_m + top_m[i] * sight.sine);
     if (sample_tangent > tangent) tangent = sample_tangent;  // false for NaN, which marks a void
   }
   // Crests on the lines of posts between the samples also raise the horizon.
   const physics::EffectiveEarth& earth = geometry.earth();
   if (view.crests(column.positions.run(),
-                  {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples), {}},
+                  {geometry.altitude_m(),
+                   earth.curvature(),
+                   earth.lift().of_elevation,
+                   std::span(column.distance_m).first(samples),
+                   {}},
                   std::span(column.crest).first(samples)))
     tangent = std::max(
         tangent, *std::max_element(column.crest.begin(), column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
@@ -248,7 +259,8 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
   if (tangent > terrain::kNoTangent) {
     // Horizons of rows use heights above the map plane. The height of the line of sight at row 0 converts the tangent.
     const double height_m = geometry.height_on_sight_m(grid.first_distance_m, static_cast<double>(tangent));
-    horizon = static_cast<float>((height_m - geometry.above_plane_m(grid.first_distance_m)) / grid.first_distance_m);
+    const auto [above_m, sight_m] = geometry.plane_sight(grid.first_distance_m);
+    horizon = static_cast<float>((height_m - above_m) / sight_m);
   }
   return pending;
 }
@@ -259,35 +271,38 @@ void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain&
   const std::size_t rows = column.positions.count;
   float* crest_m = &strip_crest_[lane * pitch_];
   std::fill_n(crest_m, rows, kNoHorizon);
-  if (terrain.crests.summits) raise_to_summits(geometry, lane);
-  if (!terrain.crests.lines ||
-      !terrain.window->crests(
-          column.positions.run(),
-          {geometry.altitude_m(), geometry.earth().curvature(), std::span(column.distance_m).first(rows), {}},
-          std::span(column.crest).first(rows)))
+  if (terrain.crests.summits) raise_to_summits(lane);
+  if (!terrain.crests.lines || !terrain.window->crests(column.positions.run(),
+                                                       {geometry.altitude_m(),
+                                                        geometry.earth().curvature(),
+                                                        geometry.earth().lift().of_elevation,
+                                                        std::span(column.distance_m).first(rows),
+                                                        {}},
+                                                       std::span(column.crest).first(rows)))
     return;
   column.crest[0] = terrain::kNoTangent;
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   for (std::size_t row = 0; row < rows; ++row) {
     const Sight& sight = row_sight_[row];
     const float tangent = column.crest[row];
-    const float height_m = (sight.above_m + tangent * sight.chord_m) / (sight.cosine - tangent * sight.sine) - plane_m;
-    if (tangent > terrain::kNoTangent) crest_m[row] = std::max(crest_m[row], height_m);
+    const float per_metre = 1.0F / (sight.cosine - tangent * sight.sine);
+    const float height_m = (sight.above_m + tangent * sight.chord_m) * per_metre - plane_m;
+    if (tangent > terrain::kNoTangent)
+      crest_m[row] = std::max(crest_m[row], height_m - sight.bow * height_m * height_m * per_metre);
   }
 }
 
 // If the tangent of a row is not below the tangents of the previous and the next row, the parabola through all three
 // has its summit near the row. A summit nearer to the aircraft than the row can hide that row. A summit beyond the row
 // can hide the next row.
-void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
+void PolarGround::raise_to_summits(std::size_t lane) {
   const std::size_t rows = window_->positions.count;
-  const float* const distance_m = window_->distance_m.data();
   const float* const height_m = &strip_height_[lane * pitch_];
   const float* const gamma = &strip_gamma_[lane * pitch_];
   float* const crest_m = &strip_crest_[lane * pitch_];
-  const auto plane_m = static_cast<float>(geometry.plane_msl_m());
-  const auto above_m = [&](std::size_t row) { return row_sight_[row].above_m - plane_m; };
-  const auto tangent = [&](std::size_t row) { return (height_m[row] - above_m(row)) / distance_m[row]; };
+  const auto tangent = [&](std::size_t row) {
+    return (height_m[row] - row_sight_[row].above_plane_m) / row_sight_[row].distance_m;
+  };
   if (rows < 3) return;
   float before = tangent(0), here = tangent(1);
   for (std::size_t row = 1; row + 1 < rows; ++row) {
@@ -298,7 +313,7 @@ void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t la
       const float lean = after - before;
       const float summit = here + 0.125F * lean * lean / (here - before + (here - after));
       const std::size_t hidden = lean < 0.0F ? row : row + 1;
-      crest_m[hidden] = summit * distance_m[hidden] + above_m(hidden);
+      crest_m[hidden] = summit * row_sight_[hidden].distance_m + row_sight_[hidden].above_plane_m;
     }
     before = here;
     here = after;

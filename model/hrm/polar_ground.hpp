@@ -44,7 +44,7 @@ struct GroundArrays {
   // A void has gamma 0 (SurfacePoint::gamma) and the height of the last known point between aircraft and void. Without
   // such a point, it has the height of the first known point of the column, or 0 if the whole column is void.
   SurfacePoint* surface = nullptr;
-  // Horizon at row 0 by column: greatest (height - PatchGeometry::above_plane_m()) / distance of all ground nearer than
+  // Horizon at row 0 by column: greatest tangent by PatchGeometry::plane_sight() of all ground nearer than
   // row 0. -1e6 if no such ground is known.
   float* horizon = nullptr;
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
@@ -75,12 +75,11 @@ class PolarGround {
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
   // Coefficients of the tangent of the elevation angle, from the aircraft, of ground at one distance over ground:
-  // tangent = (height * cosine - above) / (chord + height * sine), height above mean sea level. Here `above` is the
-  // aircraft's altitude plus the drop of the earth's surface, and `chord` is R sin a (on a flat earth the distance).
-  // Sine and cosine are those of a, the angle at the centre of the effective earth (radius R) from aircraft to ground.
+  // PatchGeometry::SightLine in float.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
-    float above_m, chord_m, sine, cosine;
+    float above_m, chord_m, sine, cosine, bow;
+    float above_plane_m, distance_m;  // PatchGeometry::PlaneSight
   };
   int column_step(const PolarGrid& grid, const terrain::TerrainView& view, const GroundTexture* detail) const;
   int path_step(const PolarGrid& grid, const terrain::TerrainView& view) const;
@@ -90,7 +89,7 @@ class PolarGround {
   std::size_t read_path(const PatchGeometry& geometry, const PolarGrid& grid, geo::Bearing azimuth,
                         const terrain::TerrainView& view, float& horizon);
   void read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane);
-  void raise_to_summits(const PatchGeometry& geometry, std::size_t lane);
+  void raise_to_summits(std::size_t lane);
   void subtract_plane(const PatchGeometry& geometry, std::size_t lane);
   void interpolate_columns(std::size_t step, bool materials);
   void prefetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const;

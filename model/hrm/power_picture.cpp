@@ -69,15 +69,17 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
 
 bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, const Target& target) const {
   const PolarGrid& grid = *horizons.grid;
-  const double tangent = (target.height_m - geometry.above_plane_m(target.distance_m())) / target.distance_m();
+  const auto tangent_of = [&](double distance_m, double height_m) {
+    const auto [above_m, sight_m] = geometry.plane_sight(distance_m);
+    return (height_m - above_m) / sight_m;
+  };
+  const double tangent = tangent_of(target.distance_m(), target.height_m);
   double horizon = static_cast<double>(horizons.horizon[target.column]);
   for (int i = 0; i < std::min(target.row, grid.rows); ++i) {
-    const double row_distance_m = grid.distance_m(i);
     const std::size_t at = grid.at(target.column, i);
     float top_m = horizons.surface[at].height_m;
     if (horizons.crest_m != nullptr) top_m = std::max(top_m, horizons.crest_m[at]);
-    const double raised = (static_cast<double>(top_m) - geometry.above_plane_m(row_distance_m)) / row_distance_m;
-    horizon = std::max(horizon, raised);
+    horizon = std::max(horizon, tangent_of(grid.distance_m(i), static_cast<double>(top_m)));
   }
   return tangent < horizon;
 }

@@ -33,7 +33,7 @@ struct Strip {
   bool layover = true;                   // false: every scatterer appears at its own distance over ground
   float double_bounce = 0.0F;            // echo by way of wall and ground, relative to the wall's own return; 0: none
   const float* distance_m = nullptr;     // by row
-  const float* inverse_m = nullptr;      // 1 / distance, by row
+  const float* inverse_m = nullptr;      // 1 / PatchGeometry::sight_distance_m(), by row
   const float* above_plane_m = nullptr;  // PatchGeometry::above_plane_m(), by row
   const float* above_level_m = nullptr;  // PatchGeometry::above_level_m(), by row
   const GasRow* gas = nullptr;           // by row; null: no attenuation

@@ -54,7 +54,7 @@ void Reference::begin(const PatchData& data) {
 // `turn_rad`: bearing minus the bearing of the map's centre. `height_m`: above the map plane.
 Point3 Reference::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
-      geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
+      geometry_->earth_above_plane().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
   const double out_m = sight.slant_range_m * std::cos(sight.elevation_rad);
   return {out_m * std::sin(turn_rad), out_m * std::cos(turn_rad), sight.slant_range_m * std::sin(sight.elevation_rad)};
 }
@@ -311,12 +311,23 @@ void Reference::add_facet(const Face& face, Point3 point, Point3 weights, double
 Reference::Ground Reference::below(Point3 point) const {
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
-  const double out_m = std::hypot(point.x, point.y);
-  Ground ground{out_m, point.z + altitude_m, 0.0, std::numeric_limits<double>::lowest()};
+  const double seen_out_m = std::hypot(point.x, point.y);
+  Ground ground{seen_out_m, point.z + altitude_m, 0.0, std::numeric_limits<double>::lowest()};
   if (std::isfinite(radius_m)) {
-    const double down_m = radius_m + altitude_m + point.z;
-    ground.distance_m = radius_m * std::atan2(out_m, down_m);
-    ground.point_height_m = std::hypot(out_m, down_m) - radius_m;
+    const double slant_m = std::hypot(seen_out_m, point.z);
+    double out_m = seen_out_m, up_m = point.z;
+    // The lift changes slowly with the position that it depends on.
+    for (int i = 0; i < 4; ++i) {
+      const double down_m = radius_m + altitude_m + up_m;
+      ground.distance_m = radius_m * std::atan2(out_m, down_m);
+      ground.point_height_m = std::hypot(out_m, down_m) - radius_m;
+      const double lift_m =
+          geometry_->earth_above_plane().elevation_lift_m(altitude_m, ground.distance_m, ground.point_height_m);
+      if (lift_m == 0.0) break;
+      const double straight_rad = std::atan2(point.z * out_m / seen_out_m - lift_m, out_m);
+      out_m = slant_m * std::cos(straight_rad);
+      up_m = slant_m * std::sin(straight_rad);
+    }
   }
   return ground;
 }

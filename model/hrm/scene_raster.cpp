@@ -41,7 +41,8 @@ PlacedTile placed_tile(const PatchGeometry& geometry, const scene::Tile& tile) {
   placement.up_east = along_east * cosine - across_east * sine;
   placement.up_north = along_north * cosine - across_north * sine;
   placement.lift_m = static_cast<float>(tile.zero_msl_m - geometry.plane_msl_m());
-  const physics::Sight sight = geometry.earth().sight(geometry.altitude_m() - geometry.plane_msl_m(), distance_m, 0.0);
+  const physics::Sight sight =
+      geometry.earth_above_plane().sight(geometry.altitude_m() - geometry.plane_msl_m(), distance_m, 0.0);
   placement.toward_east = static_cast<float>(-along_east * sight.cos_grazing);
   placement.toward_north = static_cast<float>(-along_north * sight.cos_grazing);
   placement.toward_up = static_cast<float>(sight.sin_grazing);

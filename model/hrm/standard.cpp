@@ -26,7 +26,7 @@ void Standard::begin(const PatchData& data) {
   above_level_m_.clear();
   for (int row = 0; row < grid.rows; ++row) {
     distance_m_.push_back(static_cast<float>(grid.distance_m(row)));
-    inverse_m_.push_back(static_cast<float>(1.0 / grid.distance_m(row)));
+    inverse_m_.push_back(static_cast<float>(1.0 / data.geometry->sight_distance_m(grid.distance_m(row))));
     above_plane_m_.push_back(static_cast<float>(data.geometry->above_plane_m(grid.distance_m(row))));
     above_level_m_.push_back(static_cast<float>(data.geometry->above_level_m(grid.distance_m(row))));
   }

@@ -115,13 +115,16 @@ double vapour(double f, const Air& air, double theta, double vapour_hpa) {
 }
 }  // namespace
 
+double vapour_hpa(const Air& air) {
+  return air.water_g_m3 * air.temperature_k / 216.7;
+}
+
 GasAttenuation gas_attenuation(double frequency_ghz, const Air& air) {
   const double theta = 300.0 / air.temperature_k;
-  const double vapour_hpa = air.water_g_m3 * air.temperature_k / 216.7;  // partial pressure of water vapour
+  const double wet_hpa = vapour_hpa(air);
   const double scale = 0.1820 * frequency_ghz;
-  return {
-      scale * (oxygen(frequency_ghz, air, theta, vapour_hpa) + dry_continuum(frequency_ghz, air, theta, vapour_hpa)),
-      scale * vapour(frequency_ghz, air, theta, vapour_hpa)};
+  return {scale * (oxygen(frequency_ghz, air, theta, wet_hpa) + dry_continuum(frequency_ghz, air, theta, wet_hpa)),
+          scale * vapour(frequency_ghz, air, theta, wet_hpa)};
 }
 
 Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double height_m) {
@@ -129,17 +132,20 @@ Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double heigh
   constexpr double kTropopause_km = 11.0, kMiddle_km = 20.0;  // between these heights the temperature is constant
   constexpr double kExponent = 34.1632;                       // [K/km] hydrostatic constant g M / R of air
   constexpr double kWaterScale_km = 2.0;                      // rise in height over which water vapour falls to 1/e
-  const double height_km = height_m / 1000.0;
+  constexpr double kGeopotential_km = 6356.766;  // radius of the earth in the definition of geopotential heights
+  const double above_km = height_m / 1000.0;
+  const double height_km = kGeopotential_km * above_km / (kGeopotential_km + above_km);
   const double ground_k = atmosphere.temperature_c + kZeroCelsius_k;
   const double low_k = ground_k - kLapse * std::min(height_km, kTropopause_km);
-  Air air{low_k, atmosphere.pressure_hpa * std::pow(low_k / ground_k, kExponent / kLapse),
-          atmosphere.water_g_m3 * std::exp(-height_km / kWaterScale_km)};
+  Air air{low_k, 0.0, atmosphere.water_g_m3 * std::exp(-above_km / kWaterScale_km)};
+  double pressure_hpa = atmosphere.pressure_hpa * std::pow(low_k / ground_k, kExponent / kLapse);
   if (height_km > kTropopause_km)
-    air.dry_hpa *= std::exp(-kExponent * (std::min(height_km, kMiddle_km) - kTropopause_km) / low_k);
+    pressure_hpa *= std::exp(-kExponent * (std::min(height_km, kMiddle_km) - kTropopause_km) / low_k);
   if (height_km > kMiddle_km) {
     air.temperature_k = low_k + kUpperRise * (height_km - kMiddle_km);
-    air.dry_hpa *= std::pow(low_k / air.temperature_k, kExponent / kUpperRise);
+    pressure_hpa *= std::pow(low_k / air.temperature_k, kExponent / kUpperRise);
   }
+  air.dry_hpa = pressure_hpa - vapour_hpa(air);
   return air;
 }
 
@@ -188,12 +194,11 @@ constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873,
                                          0.1012285362903763};
 constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // heights at which GasSamples' parabola equals the loss
 
-// Effective earth: flat, or a sphere from the mean earth radius, which is within 0.6 % of the ellipsoid's radius of
-// curvature everywhere.
-EffectiveEarth round_earth(const GeometryParameters& parameters) {
-  const bool flat = parameters.earth == radar::EarthModel::flat;
-  return EffectiveEarth(flat ? std::numeric_limits<double>::infinity()
-                             : parameters.earth_radius_factor * geo::kMeanEarthRadius_m);
+// The same with a sphere of the mean earth radius, which is within 0.6 % of the ellipsoid's radius of curvature
+// everywhere.
+GeometryParameters on_sphere(GeometryParameters parameters) {
+  if (parameters.earth == radar::EarthModel::ellipsoid) parameters.earth = radar::EarthModel::sphere;
+  return parameters;
 }
 }  // namespace
 
@@ -202,8 +207,9 @@ GasPath::GasPath(const RadarParameters& parameters) : profile_(parameters.world.
 double GasPath::one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const {
   if (none()) return 0.0;
   const double drop_m = 0.5 * distance_m * distance_m * earth.curvature();
+  const double sag_m = earth.sag_m(altitude_m, distance_m, height_m);
   const auto at = [&](double fraction) {
-    return profile_.db_per_m(altitude_m + fraction * (height_m - altitude_m) - drop_m * fraction * (1.0 - fraction));
+    return profile_.db_per_m(altitude_m + fraction * (height_m - altitude_m) - sag_m * fraction * (1.0 - fraction));
   };
   double mean = 0.0;
   for (std::size_t i = 0; i < kNodes.size(); ++i)
@@ -222,7 +228,8 @@ double GasPath::one_way_transmission(const EffectiveEarth& earth, double altitud
 }
 
 GasSamples::GasSamples(const RadarParameters& parameters, std::size_t samples)
-    : earth_(round_earth(parameters.geometry)),
+    : parameters_(on_sphere(parameters.geometry)),
+      earth_(std::numeric_limits<double>::infinity()),
       constant_(samples + 2 * terrain::kRunSlack),
       slope_(constant_),
       bend_(constant_) {}
@@ -244,6 +251,7 @@ void GasSamples::use(const GasPath& path, double altitude_m, double range_m, std
   if (!known) {
     altitude_m_ = altitude_m;
     range_m_ = range_m;
+    earth_ = effective_earth(parameters_, {}, geo::AltitudeMsl::metres(altitude_m), {});
     for (std::size_t knot = 0; knot < kKnots; ++knot)
       knots_[knot] = parabola_at(path, altitude_m, range_m * static_cast<double>(knot) / (kKnots - 1));
   }
@@ -370,7 +378,7 @@ double RainPath::power(const Receiver& receiver, const EffectiveEarth& earth, co
 Stretch stretch_below(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
                       double top_m) {
   // Height of the ray above the earth at the fraction s of the distance: drop_m s^2 + fall_m s + altitude_m.
-  const double drop_m = 0.5 * distance_m * distance_m * earth.curvature();
+  const double drop_m = earth.sag_m(altitude_m, distance_m, height_m);
   const double fall_m = height_m - altitude_m - drop_m;
   const double above_m = altitude_m - top_m;
   double from = 0.0;

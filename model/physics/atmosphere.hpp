@@ -2,7 +2,7 @@
 // Inputs: frequency; effective earth; altitude of the aircraft, height of a point (both above mean sea level) and its
 //   distance over ground [m]; rain cells.
 // Outputs: attenuation [dB, dB/km, dB/m], factors on power, power returned by rain [1/m^2].
-// Accuracy: GasSamples within 0.1 dB of GasPath; a ray's height within 1 m in 300 km.
+// Accuracy: GasSamples within 0.1 dB of GasPath.
 // Threads: GasPath and GasProfile are immutable; GasSamples and RainPath have buffers: one object per thread.
 // Source: docs/spec/physics.md#gases, docs/spec/physics.md#rain.
 #pragma once
@@ -31,6 +31,8 @@ struct Air {
   double dry_hpa = 0.0;     // pressure of dry air, without water vapour
   double water_g_m3 = 0.0;  // density of water vapour
 };
+
+double vapour_hpa(const Air& air);  // partial pressure of water vapour
 
 // Specific attenuation, one way [dB/km].
 struct GasAttenuation {
@@ -61,7 +63,7 @@ class GasProfile {
 };
 
 // Attenuation by gases along rays from the aircraft: GasProfile integrated over the ray.
-// The ray is straight over the effective earth. Its height is taken as a parabola in distance, within 1 m in 300 km.
+// The ray's height is taken as a parabola in distance that has the ray's mean bending (EffectiveEarth::sag_m()).
 class GasPath {
  public:
   explicit GasPath(const RadarParameters& parameters);
@@ -108,7 +110,8 @@ class GasSamples {
   };
   Parabola parabola_at(const GasPath& path, double altitude_m, double distance_m) const;
 
-  EffectiveEarth earth_;
+  GeometryParameters parameters_;
+  EffectiveEarth earth_;                     // from altitude_m_
   double altitude_m_ = 0.0, range_m_ = 0.0;  // values for which knots_ were computed; range 0: none
   std::array<Parabola, kKnots> knots_{};
   memory::CacheAlignedVector<float> constant_, slope_, bend_;
@@ -189,7 +192,7 @@ class RainPath {
 
 // Interval of distance over ground in which a straight ray, from the aircraft at an altitude to a point at a distance
 // and a height, is below the height `top_m`. Altitude and heights are above mean sea level. If there is none,
-// from_m >= to_m. The earth's drop is taken as a parabola, within 1 m in 300 km.
+// from_m >= to_m. The ray's height is a parabola in distance (EffectiveEarth::sag_m()).
 struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;

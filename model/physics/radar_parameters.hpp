@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "lib/radar/modes.hpp"
@@ -21,21 +22,31 @@ struct WorldConfiguration;
 
 namespace yars::model::physics {
 
-// Parameters of a fidelity that determine the geometry of a sweep.
+class Refraction;
+
+// Parameters of a configuration that determine the geometry of a sweep.
 struct GeometryParameters {
-  // Converts from radar::Fidelity.
-  template <class Fidelity>
-    requires requires(const Fidelity& fidelity) { fidelity.posts_per_sample; }
-  GeometryParameters(const Fidelity& fidelity)
-      : earth(fidelity.earth),
-        earth_radius_factor(fidelity.earth_radius_factor),
-        geodesic_knots(fidelity.geodesic_knots),
-        slant_range(fidelity.slant_range) {}
+  // Converts from radar::RadarConfiguration.
+  template <class Configuration>
+    requires requires(const Configuration& whole) { whole.fidelity.posts_per_sample; }
+  GeometryParameters(const Configuration& whole)
+      : earth(whole.fidelity.earth),
+        earth_radius_factor(whole.fidelity.earth_radius_factor),
+        geodesic_knots(whole.fidelity.geodesic_knots),
+        slant_range(whole.fidelity.slant_range),
+        exact(whole.fidelity.algorithm == radar::Algorithm::reference) {
+    use_air(whole.world.atmosphere.refractivity, whole.world.atmosphere.refractivity_per_km);
+  }
 
   radar::EarthModel earth;
-  double earth_radius_factor;  // effective earth radius factor k
-  int geodesic_knots;          // number of exact positions of a sweep, see sample_positions() in ray.hpp
-  bool slant_range;            // samples at equal steps of slant range instead of ground range
+  double earth_radius_factor;                    // effective earth radius factor k; NaN: `refraction` bends the rays
+  std::shared_ptr<const Refraction> refraction;  // null with a factor, and on a flat earth
+  int geodesic_knots;  // number of exact positions of a sweep, see sample_positions() in ray.hpp
+  bool slant_range;    // samples at equal steps of slant range instead of ground range
+  bool exact;          // traced rays, instead of their series
+
+ private:
+  void use_air(double refractivity, double refractivity_per_km);
 };
 
 // Parameters of one radar. Keeps references to the configuration that is passed to the constructor.
@@ -50,7 +61,7 @@ struct RadarParameters {
         receiver(whole.receiver),
         high_resolution(whole.high_resolution),
         world(whole.world),
-        geometry(whole.fidelity),
+        geometry(whole),
         beam(whole.fidelity.beam),
         interpolation(whole.fidelity.interpolation),
         algorithm(whole.fidelity.algorithm),

@@ -1,6 +1,7 @@
 #include "model/physics/rain_simd.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -132,15 +133,18 @@ class RainVector {
     const auto curvature = set(c.curvature);
     const auto angle = hn::Mul(distance_m_, curvature);
     const auto square = hn::Mul(angle, angle);
-    // Series in the angle, truncated before the fifth power.
-    drop_m_ = hn::Mul(hn::Mul(distance_m_, angle), fused::neg_mul_add(square, set(0.0416666667F), set(0.5F)));
+    // terrain::SightSeries.
+    const auto& series = c.lift.sight;
+    drop_m_ = hn::Mul(hn::Mul(distance_m_, angle), fused::mul_add(square, set(series.fall_square), set(series.fall)));
     chord_m_ = fused::neg_mul_add(hn::Mul(distance_m_, square), set(0.166666667F), distance_m_);
     sine_ = hn::Mul(chord_m_, curvature);
-    cosine_ = fused::neg_mul_add(drop_m_, curvature, set(1.0F));
+    tilt_ = fused::neg_mul_add(square, fused::mul_add(square, set(series.tilt_square), set(series.tilt)),
+                               set(series.upright));
     const Direction ground_point = to_height(height_m);
     slant_square_ = hn::Max(square_of(ground_point), set(1.0F));
     distance_inverse_ = hn::Div(set(1.0F), hn::Max(distance_m_, set(1e-3F)));
-    sag_m_ = hn::Mul(hn::Mul(distance_m_, angle), set(0.5F));
+    const auto sag = fused::mul_add(square, set(c.lift.sag_square), set(c.lift.sag));
+    sag_m_ = hn::Mul(hn::Mul(distance_m_, angle), fused::mul_add(height_m, set(c.lift.sag_height), sag));
     const auto fall_m = hn::Sub(hn::Sub(height_m, set(c.altitude_m)), sag_m_);
     // A ray that is level within a millimetre is taken to fall by a millimetre, because stretch() divides by its fall.
     fall_m_ = hn::IfThenElse(hn::Lt(hn::Abs(fall_m), set(1e-3F)), set(-1e-3F), fall_m);
@@ -171,7 +175,7 @@ class RainVector {
  private:
   HWY_INLINE Direction to_height(RainFloats height_m) const {
     return {fused::mul_add(height_m, sine_, chord_m_),
-            fused::mul_sub(height_m, cosine_, hn::Add(drop_m_, set(c_.altitude_m)))};
+            fused::mul_sub(height_m, tilt_, hn::Add(drop_m_, set(c_.lift.sight.altitude_m)))};
   }
   static HWY_INLINE RainFloats square_of(Direction to) { return fused::mul_add(to.out, to.out, hn::Mul(to.up, to.up)); }
 
@@ -259,8 +263,8 @@ class RainVector {
   const RainConstants& c_;
   const radar::BeamPattern beam_;
   const RainFloats horizon_;
-  RainFloats distance_m_, drop_m_, chord_m_, sine_, cosine_;  // as in EffectiveEarth::sight()
-  RainFloats slant_square_;                                   // of the ground
+  RainFloats distance_m_, drop_m_, chord_m_, sine_, tilt_;  // as in terrain::SightSeries
+  RainFloats slant_square_;                                 // of the ground
   RainFloats distance_inverse_;
   RainFloats sag_m_, fall_m_;  // coefficients of height_at()
   Edge lower_{hn::Zero(RainTag()), hn::Zero(RainTag())};
@@ -358,6 +362,7 @@ void RainSamples::enter(const SweepGeometry& geometry) {
 
 simd::RainConstants RainSamples::constants(const SweepGeometry& geometry, const EffectiveEarth& earth,
                                            const Receiver& receiver) const {
+  const std::array<float, 1> reach_m{static_cast<float>(geometry.range.metres())};
   const double elevation_rad = geometry.elevation.radians();
   const double beam_rad = receiver.elevation_beamwidth_rad;
   const double centre_rad = std::max(-elevation_rad, 0.5 * beam_rad);
@@ -365,6 +370,7 @@ simd::RainConstants RainSamples::constants(const SweepGeometry& geometry, const 
   simd::RainConstants c;
   c.altitude_m = static_cast<float>(geometry.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
+  c.lift = in_float(earth.lift(), {geometry.altitude.metres(), earth.curvature(), {}, reach_m});
   c.half_stc = static_cast<float>(0.5 * receiver.stc_exponent);
   c.stc_octaves = static_cast<float>(receiver.stc_exponent * std::log2(kFullScaleRange.metres()));
   c.sin_elevation = static_cast<float>(std::sin(elevation_rad));

@@ -33,7 +33,8 @@ struct RainCrossing {
 
 struct RainConstants {
   float altitude_m = 0.0F;   // [m MSL] of the aircraft
-  float curvature = 0.0F;    // [1/m] of the effective earth
+  float curvature = 0.0F;    // [1/m] EffectiveEarth::curvature()
+  Lift lift;                 // by refraction
   float half_stc = 0.0F;     // half the exponent of the sensitivity time control
   float stc_octaves = 0.0F;  // exponent times log2 of kFullScaleRange [m]
   // Beam: elevation of the antenna, half of the elevation beamwidth, and values of beam_integral().

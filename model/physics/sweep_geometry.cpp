@@ -63,11 +63,14 @@ Sight EffectiveEarth::sight(double altitude_m, double distance_m, double height_
   const double out_m = chord_m + height_m * sine;
   const double up_m = height_m * cosine - drop - altitude_m;
   Sight sight{};
-  sight.tangent = up_m / out_m;
-  sight.elevation_rad = std::atan2(up_m, out_m);
-  sight.slant_range_m = std::hypot(out_m, up_m);
+  const double square_m2 = out_m * out_m + up_m * up_m;
+  const double bent_up_m = up_m + lift_in_elevation_m(square_m2, distance_m, height_m);
+  sight.tangent = bent_up_m / out_m;
+  sight.elevation_rad = std::atan2(bent_up_m, out_m);
+  sight.slant_range_m = std::sqrt(square_m2);
   // Direction from the point to the aircraft, relative to the horizontal at the point.
-  sight.sin_grazing = (altitude_m * cosine - drop - height_m) / sight.slant_range_m;
+  sight.sin_grazing =
+      (altitude_m * cosine - drop - height_m + grazing_lift_m(distance_m, height_m)) / sight.slant_range_m;
   sight.cos_grazing = (chord_m + altitude_m * sine) / sight.slant_range_m;
   return sight;
 }
@@ -77,7 +80,45 @@ double EffectiveEarth::tangent(double altitude_m, double distance_m, double heig
   const double angle_rad = flat ? 0.0 : distance_m / radius_m_;
   const double sine = std::sin(angle_rad);
   const double chord_m = flat ? distance_m : radius_m_ * sine;
-  return (height_m * std::cos(angle_rad) - drop_m(distance_m) - altitude_m) / (chord_m + height_m * sine);
+  const double out_m = chord_m + height_m * sine;
+  const double up_m = height_m * std::cos(angle_rad) - drop_m(distance_m) - altitude_m;
+  return (up_m + lift_in_elevation_m(out_m * out_m + up_m * up_m, distance_m, height_m)) / out_m;
+}
+
+EffectiveEarth EffectiveEarth::above(double level_m) const {
+  EffectiveEarth earth = *this;
+  earth.level_m_ = level_m_ + level_m;
+  return earth;
+}
+
+// `square_m2`: squared slant range.
+double EffectiveEarth::lift_in_elevation_m(double square_m2, double distance_m, double height_m) const {
+  if (traced_ == nullptr) return lift_.of_elevation.at_m(square_m2, height_m + level_m_);
+  return square_m2 * quotients(distance_m, height_m).of_elevation;
+}
+
+double EffectiveEarth::elevation_lift_m(double altitude_m, double distance_m, double height_m) const {
+  const double angle_rad = distance_m * curvature();
+  const double out_m =
+      (angle_rad > 0.0 ? radius_m_ * std::sin(angle_rad) : distance_m) + height_m * std::sin(angle_rad);
+  const double up_m = height_m * std::cos(angle_rad) - drop_m(distance_m) - altitude_m;
+  return lift_in_elevation_m(out_m * out_m + up_m * up_m, distance_m, height_m);
+}
+
+double EffectiveEarth::grazing_lift_m(double distance_m, double height_m) const {
+  const double square_m2 = distance_m * distance_m;
+  if (traced_ == nullptr) return lift_.of_grazing_m(square_m2, height_m + level_m_);
+  return square_m2 * quotients(distance_m, height_m).of_grazing;
+}
+
+// A ray's height depends on the square of the distance over the earth's radius.
+TracedLifts::Quotients EffectiveEarth::quotients(double distance_m, double height_m) const {
+  return traced_->at(distance_m * distance_m * geo::kMeanEarthRadius_m / radius_m_, height_m + level_m_);
+}
+
+double EffectiveEarth::sag_m(double altitude_m, double distance_m, double height_m) const {
+  return 0.5 * distance_m * distance_m * curvature() -
+         0.5 * (elevation_lift_m(altitude_m, distance_m, height_m) + grazing_lift_m(distance_m, height_m));
 }
 
 double EffectiveEarth::distance_at_slant_range(double altitude_m, double height_m, double slant_range_m) const {
@@ -90,17 +131,21 @@ double EffectiveEarth::distance_at_slant_range(double altitude_m, double height_
   return half_sine > 1.0 ? std::numeric_limits<double>::quiet_NaN() : 2.0 * radius_m_ * std::asin(half_sine);
 }
 
-EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::Bearing azimuth) {
-  const double factor = parameters.earth_radius_factor > kMinFactor ? parameters.earth_radius_factor : kMinFactor;
-  switch (parameters.earth) {
-    case radar::EarthModel::flat:
-      break;
-    case radar::EarthModel::sphere:
-      return EffectiveEarth(factor * geo::kMeanEarthRadius_m);
-    case radar::EarthModel::ellipsoid:
-      return EffectiveEarth(factor * geo::radius_of_curvature(apex.latitude_deg, azimuth).metres());
-  }
-  return EffectiveEarth(std::numeric_limits<double>::infinity());
+void GeometryParameters::use_air(double refractivity, double refractivity_per_km) {
+  if (std::isnan(earth_radius_factor) && earth != radar::EarthModel::flat)
+    refraction = Refraction::of({refractivity, refractivity_per_km / 1000.0});
+}
+
+EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::AltitudeMsl altitude,
+                               geo::Bearing azimuth) {
+  if (parameters.earth == radar::EarthModel::flat) return EffectiveEarth(std::numeric_limits<double>::infinity());
+  const double radius_m = parameters.earth == radar::EarthModel::sphere
+                              ? geo::kMeanEarthRadius_m
+                              : geo::radius_of_curvature(apex.latitude_deg, azimuth).metres();
+  if (parameters.refraction == nullptr)
+    return EffectiveEarth(std::max(parameters.earth_radius_factor, kMinFactor) * radius_m);
+  const LiftSeries lift = parameters.refraction->series(altitude.metres(), radius_m);
+  return {radius_m, lift, parameters.exact ? parameters.refraction->traced(altitude.metres()) : nullptr};
 }
 
 double arc_per_plane(double plane_square_m2, double radius_of_curvature_m) {

@@ -9,12 +9,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 #include "model/physics/radar_parameters.hpp"
+#include "model/physics/refraction.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::physics {
@@ -88,15 +91,24 @@ struct Sight {
   double cos_grazing;
 };
 
-// Effective earth of one ray: a sphere of radius k R, or a plane. k models refraction.
+// Earth of the rays from one observer: a sphere, or a plane, and the lift of points by refraction (refraction.hpp).
 // R is the ellipsoid's radius of curvature at the apex along the azimuth, or the mean radius (EarthModel::sphere).
-// Distances over ground are not scaled. Heights above mean sea level count as heights above the sphere.
+// With an effective earth radius factor k the sphere has the radius k R and there is no lift.
+// Slant ranges are those of straight lines. Distances over ground are not scaled. Heights above mean sea level count as
+// heights above the sphere.
 // Source: docs/spec/physics.md#refraction.
 class EffectiveEarth {
  public:
-  explicit EffectiveEarth(double radius_m) : radius_m_(radius_m) {}  // infinity: flat
-  double radius_m() const { return radius_m_; }
+  explicit EffectiveEarth(double radius_m, const LiftSeries& lift = {}) : radius_m_(radius_m), lift_(lift) {}
+  EffectiveEarth(double radius_m, const LiftSeries& lift, std::shared_ptr<const TracedLifts> traced)
+      : radius_m_(radius_m), lift_(lift), traced_(std::move(traced)) {}
+  double radius_m() const { return radius_m_; }         // infinity: flat
   double curvature() const { return 1.0 / radius_m_; }  // [1/m] 0 = flat
+  // Lifts of the fast path. sight() and tangent() use traced rays instead where the algorithm is `reference`.
+  const LiftSeries& lift() const { return lift_; }
+  bool traced() const { return traced_ != nullptr; }
+  // The same earth for altitudes and heights above a level at this height above mean sea level.
+  EffectiveEarth above(double level_m) const;
 
   // Drop of the sphere below the horizontal plane of the apex at a distance over ground, exact.
   double drop_m(double distance_m) const;
@@ -106,13 +118,29 @@ class EffectiveEarth {
   double tangent(double altitude_m, double distance_m, double height_m) const;
   // Distance over ground at which ground of this height has this slant range; NaN if there is none.
   double distance_at_slant_range(double altitude_m, double height_m, double slant_range_m) const;
+  // Lift of a point in elevation, and of its grazing angle [m].
+  double elevation_lift_m(double altitude_m, double distance_m, double height_m) const;
+  double grazing_lift_m(double distance_m, double height_m) const;
+  // Depth of the ray to a point below its chord, in heights above the sphere: at the fraction s of the way, s (1 - s)
+  // of this [m]. The parabola has the mean bending of the ray.
+  double sag_m(double altitude_m, double distance_m, double height_m) const;
 
  private:
+  double lift_in_elevation_m(double square_m2, double distance_m, double height_m) const;
+  TracedLifts::Quotients quotients(double distance_m, double height_m) const;
+
   double radius_m_;
+  LiftSeries lift_;
+  std::shared_ptr<const TracedLifts> traced_;
+  double level_m_ = 0.0;  // [m MSL] zero of altitudes and heights
 };
 
-// Effective earth of a ray by the parameters. A factor k below 0.1, or NaN, is replaced by 0.1.
-EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::Bearing azimuth);
+// Earth of the rays from an observer by the parameters. A factor k below 0.1 is replaced by 0.1.
+EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::AltitudeMsl altitude,
+                               geo::Bearing azimuth);
+inline EffectiveEarth effective_earth(const GeometryParameters& parameters, const SweepGeometry& geometry) {
+  return effective_earth(parameters, geometry.apex, geometry.altitude, geometry.azimuth);
+}
 
 // Distance over ground of a point on the ellipsoid, divided by its distance in the apex's horizontal plane: arcsine(x)
 // / x, where x is the square root of `plane_square_m2` / radius of curvature. Series, within 3 m as far as 1,000 NM.

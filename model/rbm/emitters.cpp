@@ -43,6 +43,7 @@ EmitterSights::EmitterSights(const physics::RadarParameters& parameters, std::ve
     : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference),
       geometry_parameters_(parameters.geometry),
       gas_(parameters) {
+  geometry_parameters_.exact = false;  // as in SightLine
   use_emitters(std::move(emitters));
 }
 
@@ -62,7 +63,7 @@ EmitterSights::Sight EmitterSights::sight_of(const Emitter& emitter, const physi
   path.distance = std::max(path.distance, geo::Length::metres(kMinDistance_m));
   const double distance_m = path.distance.metres();
   const physics::EffectiveEarth earth =
-      physics::effective_earth(geometry_parameters_, geometry.apex, path.azimuth_at_start);
+      physics::effective_earth(geometry_parameters_, geometry.apex, geometry.altitude, path.azimuth_at_start);
   Sight sight{false,
               altitude_of(emitter.altitude_m, emitter.position, terrain),
               1.0,
@@ -242,7 +243,7 @@ void Beacons::measure(const physics::SweepGeometry& geometry, const terrain::Ter
   std::fill(power.begin(), power.end(), 0.0F);
   const std::span<const Reply> arrived = replies(geometry, terrain);
   if (arrived.empty()) return;
-  const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry.apex, geometry.azimuth);
+  const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry);
   physics::sample_distances(geometry_parameters_, earth, geometry, terrain, distance_m_);
   const double spacing_m = geometry.range.metres() / static_cast<double>(power.size());
   // A reply is drawn in one sample at least.

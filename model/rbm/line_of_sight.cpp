@@ -41,7 +41,8 @@ bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const 
   split(passage, sight.distance_m);
   const std::size_t count = pieces_.count;
   physics::sample_positions(ray.apex, ray.azimuth, ray.range, ray.knots, distance_m_.data(), pieces_);
-  const terrain::RaySight pieces{sight.altitude_m, sight.curvature, std::span(distance_m_).first(count), {}};
+  const terrain::RaySight pieces{
+      sight.altitude_m, sight.curvature, sight.lift, std::span(distance_m_).first(count), {}};
   if (!terrain.crests(pieces_.run(), pieces, std::span(crest_).first(count))) return false;
   sample_short_pieces(terrain, sight);
   const float* from = crest_.data();
@@ -80,7 +81,7 @@ void RayCrests::split(const physics::PolarPassage& passage, std::span<const floa
 // crest of a sample excludes the ground at the sample itself.
 void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight) {
   if (last_short_ == 0) return;
-  const physics::EffectiveEarth earth(1.0 / sight.curvature);
+  const terrain::SightSeries series = terrain::sight_series(sight);
   const std::size_t count = last_short_ - first_short_;
   const terrain::PositionRun all = pieces_.run();
   const auto of_short = [&](std::span<const float> values) { return values.subspan(first_short_, count); };
@@ -97,9 +98,8 @@ void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const t
       continue;
     }
     if (std::isnan(peak_m_[i])) continue;
-    const double distance_m = static_cast<double>(distance_m_[i]);
-    const physics::Sight peak = earth.sight(sight.altitude_m, distance_m, static_cast<double>(peak_m_[i]));
-    crest_[i] = std::max(crest_[i], static_cast<float>(peak.tangent));
+    const terrain::SightSeries::Line line = series.at(sight.curvature, static_cast<double>(distance_m_[i]));
+    crest_[i] = std::max(crest_[i], static_cast<float>(line.tangent(static_cast<double>(peak_m_[i]))));
   }
 }
 
@@ -108,13 +108,16 @@ constexpr std::size_t kSamples = 512;
 
 // True if ground at a distance surely lies below the line of sight with a tangent, without the sines of
 // EffectiveEarth::tangent(). The line is approximated by altitude + tangent d + d^2 / (2 R). The margin bounds what
-// that and the inclination of the ground's vertical leave out, for angles up to 1 rad at the earth's centre.
+// that and the inclination of the ground's vertical leave out, for angles up to 1 rad at the earth's centre. Refraction
+// lifts the ground.
 bool lies_below(const physics::EffectiveEarth& earth, double altitude_m, double tangent, double distance_m,
                 double height_m) {
   const double angle_rad = distance_m * earth.curvature();
   const double margin_m =
       (std::abs(tangent) + angle_rad) * angle_rad * (std::abs(height_m) + distance_m * angle_rad / 6.0);
-  return height_m < altitude_m + distance_m * (tangent + 0.5 * angle_rad) - margin_m;
+  const double below_m = altitude_m - height_m + 0.5 * distance_m * angle_rad;
+  const double lift_m = earth.lift().of_elevation.at_m(distance_m * distance_m + below_m * below_m, height_m);
+  return height_m + 1.1 * lift_m < altitude_m + distance_m * (tangent + 0.5 * angle_rad) - margin_m;
 }
 }  // namespace
 
@@ -129,7 +132,11 @@ SightLine::SightLine()
 
 bool SightLine::clear(const physics::GeometryParameters& parameters, const physics::SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m) {
-  const physics::EffectiveEarth earth = physics::effective_earth(parameters, geometry.apex, path.azimuth_at_start);
+  // Ground and point have the same lift, so the series serves `reference`, too.
+  physics::GeometryParameters fast = parameters;
+  fast.exact = false;
+  const physics::EffectiveEarth earth =
+      physics::effective_earth(fast, geometry.apex, geometry.altitude, path.azimuth_at_start);
   const double distance_m = path.distance.metres();
   // The last sample is directly below the point and hides nothing.
   for (std::size_t i = 0; i < kSamples; ++i)
@@ -140,15 +147,18 @@ bool SightLine::clear(const physics::GeometryParameters& parameters, const physi
   const auto all = [](memory::CacheAlignedVector<float>& values) { return std::span(values).first(kSamples); };
   terrain.surfaces(positions_.run(), radar::Interpolation::bilinear,
                    {all(elevation_m_), all(water_), all(peak_m_), {}});
-  const double tangent = earth.tangent(geometry.altitude.metres(), distance_m, altitude_m);
+  const terrain::RaySight ray{geometry.altitude.metres(), earth.curvature(), earth.lift().of_elevation,
+                              all(distance_m_)};
+  const terrain::SightSeries series = terrain::sight_series(ray);
+  const double tangent = series.at(earth.curvature(), distance_m).tangent(altitude_m);
   for (std::size_t i = 0; i + 1 < kSamples; ++i) {
     const double height_m = std::isnan(peak_m_[i]) ? 0.0 : static_cast<double>(peak_m_[i]);
     const auto along_m = static_cast<double>(distance_m_[i]);
     if (lies_below(earth, geometry.altitude.metres(), tangent, along_m, height_m)) continue;
-    if (earth.tangent(geometry.altitude.metres(), along_m, height_m) >= tangent) return false;
+    if (series.at(earth.curvature(), along_m).tangent(height_m) >= tangent) return false;
   }
   if (!ray_crests_.find(terrain, {geometry.apex, path.azimuth_at_start, path.distance, parameters.geodesic_knots},
-                        positions_, {geometry.altitude.metres(), earth.curvature(), all(distance_m_), {}}, all(crest_)))
+                        positions_, ray, all(crest_)))
     return true;
   return static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)) < tangent;
 }

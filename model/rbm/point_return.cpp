@@ -123,7 +123,7 @@ double PointReturn::horizon_before(const Sweep& sweep, const Seen& seen) const {
   const RayGround& ground = seen.ground;
   const std::size_t nearer = seen.nearer;
   if (nearer == 0 || nearer >= distance_m_.size() || std::isnan(ground.samples[nearer].slope)) {
-    const auto earth = physics::effective_earth(parameters_, ground.geometry.apex, ground.geometry.azimuth);
+    const auto earth = physics::effective_earth(parameters_, ground.geometry);
     const physics::GroundWalk walk(ground.geometry, earth, sweep.environment.terrain, interpolation_);
     return walk.horizon_before(distance_m_, seen.target.distance_m,
                                [&](std::size_t sample) { return ground.samples[sample].horizon; });
@@ -138,7 +138,7 @@ double PointReturn::horizon_before(const Sweep& sweep, const Seen& seen) const {
 void PointReturn::add_movers(const Sweep& sweep) {
   const physics::SweepGeometry& geometry = sweep.geometry;
   const terrain::TerrainView& terrain = sweep.environment.terrain;
-  const auto earth = physics::effective_earth(parameters_, geometry.apex, geometry.azimuth);
+  const auto earth = physics::effective_earth(parameters_, geometry);
   mover_sights_.enter(geometry, terrain);
   for (const physics::Echo& echo : movers_.echoes(geometry, sweep.receiver, earth, sweep.environment)) {
     if (echo.power <= sweep.negligible) continue;
@@ -228,7 +228,7 @@ PointReturn::Echo PointReturn::find(const Sweep& sweep, const SceneRay::InScene&
   echo.distance_m = std::sqrt(chord2) * (1.0 + chord2 / (24.0 * radius_m * radius_m));
   echo.per_metre = 1.0 / echo.distance_m;
   echo.tangent =
-      physics::effective_earth(parameters_, sweep.geometry.apex, azimuth)
+      physics::effective_earth(parameters_, sweep.geometry.apex, sweep.geometry.altitude, azimuth)
           .tangent(sweep.geometry.altitude.metres(), echo.distance_m, static_cast<double>(scatterer.middle_msl_m));
   echo.nearer = physics::samples_nearer(distance_m_, echo.distance_m);
   echo.power = -1.0;
@@ -239,8 +239,8 @@ double PointReturn::power_of(const Sweep& sweep, const SceneRay::InScene& ray, c
                              const scene::Scatterer& scatterer, const Echo& echo) const {
   const double altitude_m = sweep.geometry.altitude.metres();
   const auto middle_m = static_cast<double>(scatterer.middle_msl_m);
-  const physics::EffectiveEarth earth =
-      physics::effective_earth(parameters_, sweep.geometry.apex, geo::Bearing::radians(echo.azimuth_rad));
+  const physics::EffectiveEarth earth = physics::effective_earth(
+      parameters_, sweep.geometry.apex, sweep.geometry.altitude, geo::Bearing::radians(echo.azimuth_rad));
   const physics::Sight sight = earth.sight(altitude_m, echo.distance_m, middle_m);
   const double gain = physics::two_way_gain(beam_, sweep.receiver.elevation_beamwidth_rad,
                                             sweep.geometry.elevation.radians(), sight.elevation_rad);

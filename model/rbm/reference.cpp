@@ -24,6 +24,7 @@ double speckle(physics::NoiseState state, std::uint32_t cell, int looks) {
 
 Reference::Reference(const physics::RadarParameters& parameters)
     : fidelity_(parameters.fidelity),
+      geometry_parameters_(parameters.geometry),
       receivers_(parameters),
       surface_(parameters),
       rain_(parameters),
@@ -43,9 +44,9 @@ void Reference::use_weather(const physics::RadarParameters& parameters) {
 std::size_t Reference::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                                std::span<float> power) {
   const terrain::TerrainView& terrain = environment.terrain;
-  const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
+  const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry);
   const physics::Receiver receiver = receivers_.at(geometry.range);
-  physics::sample_distances(fidelity_, earth, geometry, terrain, distance_m_);
+  physics::sample_distances(geometry_parameters_, earth, geometry, terrain, distance_m_);
   const std::size_t pending = read_terrain(geometry, terrain);
   const double spacing_m = geometry.range.metres() / static_cast<double>(samples_.size());
   surface_.use_resolution(receiver.pulse_length_m, spacing_m);

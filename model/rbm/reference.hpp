@@ -78,6 +78,7 @@ class Reference : public Algorithm {
   void smear_pulse(double pulse_samples, std::span<float> power);
 
   radar::Fidelity fidelity_;
+  physics::GeometryParameters geometry_parameters_;
   physics::Receivers receivers_;
   physics::SurfaceReturn surface_;
   physics::RainPath rain_;

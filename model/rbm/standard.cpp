@@ -28,6 +28,7 @@ float max_straight_m(std::size_t samples) {
 
 Standard::Standard(const physics::RadarParameters& parameters)
     : fidelity_(parameters.fidelity),
+      geometry_parameters_(parameters.geometry),
       receivers_(parameters),
       ground_(parameters, sample_count(parameters)),
       rain_(parameters, sample_count(parameters)),
@@ -67,7 +68,7 @@ void Standard::use_weather(const physics::RadarParameters& parameters) {
 std::size_t Standard::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) {
   const terrain::TerrainView& terrain = environment.terrain;
-  const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
+  const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry);
   const physics::Receiver& receiver = receiver_at(geometry.range);
   update_distances(geometry, earth, terrain);
   const std::size_t pending = read_terrain(geometry, terrain);
@@ -88,7 +89,8 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   simd::profile(count_, constants, inputs, outputs);
   has_crests_ =
       ray_crests_.find(terrain, {geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots}, positions_,
-                       {geometry.altitude.metres(), earth.curvature(), distance_.first(count_), horizon_.first(count_)},
+                       {geometry.altitude.metres(), earth.curvature(), earth.lift().of_elevation,
+                        distance_.first(count_), horizon_.first(count_)},
                        crest_.first(count_));
   if (has_crests_) inputs.crest = crest_.data();
   simd::sweep(count_, constants, fidelity_.beam, inputs, outputs);
@@ -178,7 +180,7 @@ void Standard::update_distances(const physics::SweepGeometry& geometry, const ph
   const bool slant = fidelity_.slant_range;
   if (!slant && spaced_range_m_ == geometry.range.metres()) return;
   spaced_range_m_ = geometry.range.metres();
-  physics::sample_distances(fidelity_, earth, geometry, terrain, distance_m_);
+  physics::sample_distances(geometry_parameters_, earth, geometry, terrain, distance_m_);
   // Altitude hole: no ground is at slant ranges below the aircraft's height above ground. Samples at these ranges get
   // distance 0 here; read_terrain() makes them voids.
   holes_ = 0;
@@ -232,6 +234,8 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   simd::SweepConstants c;
   c.altitude_m = static_cast<float>(geometry.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
+  const std::array<float, 1> farthest_m{distance_.data()[count_ - 1]};
+  c.lift = physics::in_float(earth.lift(), {geometry.altitude.metres(), earth.curvature(), {}, farthest_m});
   c.land_gamma = static_cast<float>(receiver.land_gamma);
   c.pulse_inverse = static_cast<float>(1.0 / receiver.pulse_length_m);
   c.beam_inverse = static_cast<float>(1.0 / beam_rad);

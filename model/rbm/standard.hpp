@@ -66,6 +66,7 @@ class Standard : public Algorithm {
   void use_cells(float cells_per_sample);
 
   radar::Fidelity fidelity_;
+  physics::GeometryParameters geometry_parameters_;
   physics::Receivers receivers_;
   physics::Ground ground_;
   physics::RainSamples rain_;

@@ -26,25 +26,28 @@ constexpr std::size_t kMaxLanes = 16;  // limit of lanes in Tag (sample_groups-i
 // earth's centre between aircraft and ground.
 template <class Group>
 struct Geometry {
-  Group out_m, up_m;                    // horizontal distance from the aircraft, height above it
-  Group drop_m, chord_m, sine, cosine;  // R (1 - cos a), R sin a, sin a, cos a
+  Group out_m, up_m;    // horizontal distance from the aircraft, height above it with the lift by refraction
+  Group chord_m, sine;  // R sin a, sin a
+  Group square;         // a^2
 };
 
-// Drop and chord are series in a, truncated before the fifth power. At 160 NM and earth radius factor k = 4/3, a is
-// below 0.04 rad. Accuracy at 0.1 rad (340 NM with k = 1): drop 0.01 m, chord 1e-6 relative.
+// Chord, drop and tilt are series in a, truncated before the fifth power (terrain::SightSeries). At 160 NM, a is below
+// 0.05 rad. Accuracy at 0.1 rad (340 NM): drop 0.01 m, chord 1e-6 relative.
 template <class Group>
 HWY_INLINE Geometry<Group> geometry(const SweepConstants& c, const Group& distance, const Group& height) {
+  const auto& series = c.lift.sight;
   const auto curvature = constant<Group>(c.curvature);
   const auto angle = mul(distance, curvature);
-  const auto square = mul(angle, angle);
   Geometry<Group> g{};
-  const auto fall = neg_mul_add(square, constant<Group>(0.0416666667F), constant<Group>(0.5F));
-  g.drop_m = mul(mul(distance, angle), fall);
-  g.chord_m = neg_mul_add(mul(distance, square), constant<Group>(0.166666667F), distance);
+  g.square = mul(angle, angle);
+  const auto fall = mul_add(g.square, constant<Group>(series.fall_square), constant<Group>(series.fall));
+  const auto drop = mul(mul(distance, angle), fall);
+  const auto lean = mul_add(g.square, constant<Group>(series.tilt_square), constant<Group>(series.tilt));
+  const auto tilt = neg_mul_add(g.square, lean, constant<Group>(series.upright));
+  g.chord_m = neg_mul_add(mul(distance, g.square), constant<Group>(0.166666667F), distance);
   g.sine = mul(g.chord_m, curvature);
-  g.cosine = neg_mul_add(g.drop_m, curvature, constant<Group>(1.0F));
   g.out_m = mul_add(height, g.sine, g.chord_m);
-  g.up_m = mul_sub(height, g.cosine, add(g.drop_m, constant<Group>(c.altitude_m)));
+  g.up_m = mul_sub(height, tilt, add(drop, constant<Group>(series.altitude_m)));
   return g;
 }
 
@@ -120,7 +123,9 @@ HWY_INLINE Power<Group> seen_power(const SweepConstants& c, radar::BeamPattern b
   const auto altitude = constant<Group>(c.altitude_m);
   const auto range_inverse = [&] { return inverse_root(slant_square); };
   // Sine and cosine of the grazing angle on level ground, times the slant range.
-  const auto level_sine = mul_sub(altitude, g.cosine, add(height, g.drop_m));
+  const auto level = mul_add(
+      g.square, mul_add(g.square, constant<Group>(c.lift.level_square), constant<Group>(c.lift.level)), altitude);
+  const auto level_sine = sub(level, neg_mul_add(mul(height, g.square), constant<Group>(c.lift.level_height), height));
   const auto level_cosine = mul_add(altitude, g.sine, g.chord_m);
   const auto gain = ElevationGain<Group>(c, g.out_m, g.up_m, slant_square).of(beam);
   // The angle of elevation is the rise times (out / slant range)^2. One factor of the slant range is in the inverse

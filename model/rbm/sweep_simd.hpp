@@ -27,7 +27,8 @@ inline constexpr float kNoHorizon = terrain::kNoTangent;
 
 struct SweepConstants {
   float altitude_m = 0.0F;     // [m MSL] of the aircraft
-  float curvature = 0.0F;      // [1/m] 1 / effective earth radius, which is enlarged for refraction; 0 = flat
+  float curvature = 0.0F;      // [1/m] physics::EffectiveEarth::curvature(); 0 = flat
+  physics::simd::Lift lift;    // by refraction
   float land_gamma = 0.0F;     // sigma0 / sine of the grazing angle, for land without culture
   float pulse_inverse = 0.0F;  // [1/m] 1 / (c tau / 2); tau is the pulse duration
   float beam_inverse = 0.0F;   // [1/rad] 1 / theta_el; theta_el is the elevation beamwidth

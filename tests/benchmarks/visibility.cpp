@@ -91,7 +91,7 @@ unsigned Visibility::Rays::cast_packet(int row, int column) const {
 double Visibility::build(const model::hrm::PatchOrder& order, const model::scene::SceneView& scene, double elevation_m,
                          int size) {
   rays_ = std::make_unique<Rays>();
-  const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), elevation_m);
+  const model::hrm::PatchGeometry geometry(order, radar::RadarConfiguration(), elevation_m);
   rays_->size = size;
   rays_->pixel_m = static_cast<float>(geometry.window_m() / size);
   rays_->edge_m = static_cast<float>(0.5 * geometry.window_m());

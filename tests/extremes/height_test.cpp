@@ -36,6 +36,7 @@ bool has_curvature(const radar::RadarConfiguration& configuration) {
 void expect_horizon(double altitude_m, double ground_m, double range_m) {
   test::for_each_algorithm_and_beam(400, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.earth = radar::EarthModel::sphere;
+    configuration.fidelity.earth_radius_factor = kFactor;
     const double end_m = has_curvature(configuration) ? horizon_m(altitude_m - ground_m, ground_m) : kFar_m;
     expect_lit_between(seen(configuration, geometry_from(test::kMidLatitude, 0.0, altitude_m, range_m),
                             terrain::AnalyticTerrain(terrain::flat(ground_m))),
@@ -157,6 +158,7 @@ TEST(ExtremeHeights, BehindACliffOf8848MetresTheShadowEndsWhereTheLineOfSightMee
   constexpr double kEdge_m = kCliff_m - 0.5 * kSpacing_m;
   test::for_each_algorithm_and_beam(1200, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.earth = radar::EarthModel::sphere;
+    configuration.fidelity.earth_radius_factor = kFactor;
     // For the flat earth the end follows from similar triangles.
     const double end_m = has_curvature(configuration) ? shadow_end_m(kAltitude_m, kEdge_m, 8848.0, 1.0)
                                                       : kEdge_m * (kAltitude_m - 1.0) / (kAltitude_m - 8848.0);

@@ -22,11 +22,11 @@ namespace {
 
 namespace physics = model::physics;
 
-physics::EffectiveEarth refracting_sphere(double factor = radar::Fidelity().earth_radius_factor) {
-  radar::Fidelity fidelity;
-  fidelity.earth_radius_factor = factor;
-  fidelity.earth = radar::EarthModel::sphere;
-  return physics::effective_earth(fidelity, {}, {});
+physics::EffectiveEarth refracting_sphere(double factor = 4.0 / 3.0) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.earth_radius_factor = factor;
+  configuration.fidelity.earth = radar::EarthModel::sphere;
+  return physics::effective_earth(configuration, {}, {}, {});
 }
 
 double degrees(double radians) {

@@ -53,7 +53,7 @@ double target(double distance_m, double cross_section_m2) {
   configuration.world.movers.push_back(mover);
   physics::Movers movers(configuration);
   const physics::Receiver receiver = physics::Receivers(configuration).at(ahead().range);
-  const auto echoes = movers.echoes(ahead(), receiver, physics::effective_earth(configuration.fidelity, {}, {}), sea());
+  const auto echoes = movers.echoes(ahead(), receiver, physics::effective_earth(configuration, ahead()), sea());
   return echoes.size() == 1 ? echoes[0].power : 0.0;
 }
 
@@ -135,7 +135,7 @@ double displacement_m(double squint_deg) {
   order.ground_track = order.ground_track + geo::Angle::degrees(90.0 - squint_deg);
   radar::RadarConfiguration configuration = test::bare_map(480);
   configuration.receiver.land_gamma_db = -120.0;
-  const model::hrm::PatchGeometry geometry(order, configuration.fidelity, test::kGround_m);
+  const model::hrm::PatchGeometry geometry(order, configuration, test::kGround_m);
   configuration.world.movers.push_back({"mover", order.centre, 5.0, geometry.up().degrees(), 1000.0, 0.0});
   const auto map = test::make_patch(configuration, order, test::ground_of(model::terrain::flat(test::kGround_m)));
   double sum = 0.0, columns = 0.0;

@@ -131,6 +131,7 @@ radar::RadarConfiguration even_radar(const std::string& preset, int samples) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(preset);
   configuration.fidelity.sub_beams = 1;
+  configuration.fidelity.earth_radius_factor = 4.0 / 3.0;
   configuration.fidelity.beam = radar::BeamPattern::hard_edge;
   configuration.fidelity.noise = false;
   if (samples > 0) configuration.fidelity.samples = samples;

@@ -28,7 +28,7 @@ constexpr double kEdgeFraction = 0.03;  // side of a mark / side of the window; 
 
 MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
   kinds_.push_back({kMarkMaterial, 0, 0});
-  const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), 0.0);
+  const model::hrm::PatchGeometry geometry(order, radar::RadarConfiguration(), 0.0);
   for (int row = 0; row < kMarksPerEdge; ++row)
     for (int column = 0; column < kMarksPerEdge; ++column)
       add(geometry.position_of({((column + 0.5) / kMarksPerEdge - 0.5) * geometry.window_m(),
@@ -193,8 +193,8 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   for (std::size_t sweep = 0; sweep < scan.headers().size(); sweep += kStep) {
     const SweepGeometry geometry = model::kernel::geometry_of(scan.headers()[sweep]);
     std::vector<double> exact_m(positions.count);
-    const auto earth = model::physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
-    model::physics::sample_distances(configuration.fidelity, earth, geometry, terrain, exact_m);
+    const auto earth = model::physics::effective_earth(configuration, geometry);
+    model::physics::sample_distances(configuration, earth, geometry, terrain, exact_m);
     // Samples without ground at their slant range get ground range 0.
     std::replace_if(exact_m.begin(), exact_m.end(), [](double value) { return std::isnan(value); }, 0.0);
     std::vector<float> distance_m(exact_m.begin(), exact_m.end());

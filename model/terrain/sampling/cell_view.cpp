@@ -163,6 +163,19 @@ float even_spacing_m(std::span<const float> distance_m) {
   return step_m;
 }
 
+// The observer's part of a ray.
+crests::Ray ray_of(const RaySight& sight) {
+  crests::Ray ray;
+  ray.curvature = static_cast<float>(sight.curvature);
+  ray.series = sight_series(sight);
+  // Less a thousandth of the drop for the series and rounding; the growth of the lift is greater on low ground.
+  constexpr double kLowGround = 1.3;
+  ray.least_fall = static_cast<float>(0.4995 * sight.curvature - 1.001 * sight.lift.level);
+  ray.lift_per_height = static_cast<float>(sight.lift.per_height);
+  ray.lift_per_square = static_cast<float>(kLowGround * std::max(0.0, sight.lift.per_square));
+  return ray;
+}
+
 }  // namespace
 
 namespace {
@@ -397,15 +410,16 @@ bool CellView::crests(const PositionRun& positions, const RaySight& sight, std::
   YARS_REQUIRE(sight.distance_m.size(), ==, count);
   YARS_REQUIRE(tangent.size(), ==, count);
   std::fill(tangent.begin(), tangent.end(), kNoTangent);
-  const crests::Ray ray{positions.cells_north.data(),
-                        positions.cells_east.data(),
-                        positions.north_deg.data(),
-                        positions.east_deg.data(),
-                        sight.distance_m.data(),
-                        static_cast<float>(sight.altitude_m),
-                        static_cast<float>(sight.curvature),
-                        sight.horizon.empty() ? nullptr : sight.horizon.data(),
-                        sight.horizon.empty() ? 0.0F : even_spacing_m(sight.distance_m)};
+  crests::Ray ray = ray_of(sight);
+  ray.cells_north = positions.cells_north.data();
+  ray.cells_east = positions.cells_east.data();
+  ray.north_deg = positions.north_deg.data();
+  ray.east_deg = positions.east_deg.data();
+  ray.distance_m = sight.distance_m.data();
+  if (!sight.horizon.empty()) {
+    ray.floor = sight.horizon.data();
+    ray.even_step_m = even_spacing_m(sight.distance_m);
+  }
   for (std::size_t first = 0; first < count;) {
     const Run run = run_at(positions, first);
     const std::size_t behind = first + run.count;
@@ -440,12 +454,15 @@ void CellView::raise_first_crest(const PositionRun& positions, const RaySight& s
   const Two north_deg{back(positions.cells_north, positions.north_deg), positions.north_deg[0]};
   const Two east_deg{back(positions.cells_east, positions.east_deg), positions.east_deg[0]};
   const Two distance_m{0.0F, sight.distance_m[0]};
+  crests::Ray ray = ray_of(sight);
+  ray.cells_north = cells_north.data();
+  ray.cells_east = cells_east.data();
+  ray.north_deg = north_deg.data();
+  ray.east_deg = east_deg.data();
+  ray.distance_m = distance_m.data();
   Two found{};
   found.fill(kNoTangent);
-  crests::raise(crossed(run, positions, 0),
-                {cells_north.data(), cells_east.data(), north_deg.data(), east_deg.data(), distance_m.data(),
-                 static_cast<float>(sight.altitude_m), static_cast<float>(sight.curvature), nullptr, 0.0F},
-                1, 2, found.data());
+  crests::raise(crossed(run, positions, 0), ray, 1, 2, found.data());
   tangent = std::max(tangent, found[1]);
 }
 

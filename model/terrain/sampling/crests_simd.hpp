@@ -22,8 +22,11 @@ struct Ray {
   const float* north_deg = nullptr;
   const float* east_deg = nullptr;
   const float* distance_m = nullptr;
-  float altitude_m = 0.0F;  // [m] MSL of the observer
-  float curvature = 0.0F;   // [1/m] curvature of the effective earth
+  float curvature = 0.0F;  // [1/m] of the sphere
+  SightSeries series{};    // sight_series()
+  // A lower bound of the fall of the ground at the height h within the distance d is its squared distance times
+  // least_fall - lift_per_height h - lift_per_square d d.
+  float least_fall = 0.0F, lift_per_height = 0.0F, lift_per_square = 0.0F;
   // Tangents that ground must reach to be of interest, one per position, ascending; null: all ground is.
   const float* floor = nullptr;
   // [m] Distance between neighbouring positions if it is the same everywhere and `floor` is given, else 0.

@@ -48,33 +48,38 @@ HWY_INLINE Height between(const sampling::Grid& grid, Ints near, Ints far, Float
   return {grid.unit_m == 1.0F ? posts : hn::Mul(posts, hn::Set(d, grid.unit_m)), known};
 }
 
-// Ground in the vertical plane of the ray, relative to the observer.
+// Ground in the vertical plane of the ray, relative to the observer, with the lift by refraction.
 struct Sight {
   Floats out_m, up_m;
 };
 
-// Curvature of the earth and altitude of the observer.
+// Curvature of the earth, altitude of the observer, lift by refraction.
 class Observer {
  public:
   HWY_INLINE explicit Observer(const Ray& ray)
-      : curvature_(hn::Set(FloatLanes(), ray.curvature)), altitude_m_(hn::Set(FloatLanes(), ray.altitude_m)) {}
+      : curvature_(hn::Set(FloatLanes(), ray.curvature)),
+        altitude_m_(hn::Set(FloatLanes(), ray.series.altitude_m)),
+        upright_(hn::Set(FloatLanes(), ray.series.upright)),
+        fall_(hn::Set(FloatLanes(), ray.series.fall)),
+        fall_square_(hn::Set(FloatLanes(), ray.series.fall_square)),
+        tilt_(hn::Set(FloatLanes(), ray.series.tilt)),
+        tilt_square_(hn::Set(FloatLanes(), ray.series.tilt_square)) {}
 
-  // Ground at a distance and a height. angle: at the earth's centre [rad]. drop_m and chord_m: series of (1 - cos
-  // angle) and sin angle, times the radius; the same as in model/rbm/sweep_simd.cpp.
+  // Ground at a distance and a height. angle: at the earth's centre [rad]; SightSeries. The same as in
+  // model/rbm/sweep_simd.cpp.
   HWY_INLINE Sight sight_of(Floats distance_m, Floats height_m) const {
     const FloatLanes d;
     const auto angle = hn::Mul(distance_m, curvature_);
     const auto square = hn::Mul(angle, angle);
-    const auto fall = fused::neg_mul_add(square, hn::Set(d, 0.0416666667F), hn::Set(d, 0.5F));
-    const auto drop_m = hn::Mul(hn::Mul(distance_m, angle), fall);
+    const auto drop_m = hn::Mul(hn::Mul(distance_m, angle), fused::mul_add(square, fall_square_, fall_));
+    const auto tilt = fused::neg_mul_add(square, fused::mul_add(square, tilt_square_, tilt_), upright_);
     const auto chord_m = fused::neg_mul_add(hn::Mul(distance_m, square), hn::Set(d, 0.166666667F), distance_m);
     const auto sine = hn::Mul(chord_m, curvature_);
-    const auto cosine = fused::neg_mul_add(drop_m, curvature_, hn::Set(d, 1.0F));
-    return {fused::mul_add(height_m, sine, chord_m), fused::mul_sub(height_m, cosine, hn::Add(drop_m, altitude_m_))};
+    return {fused::mul_add(height_m, sine, chord_m), fused::mul_sub(height_m, tilt, hn::Add(drop_m, altitude_m_))};
   }
 
  private:
-  Floats curvature_, altitude_m_;
+  Floats curvature_, altitude_m_, upright_, fall_, fall_square_, tilt_, tilt_square_;
 };
 
 // True where the tangent of `sight` may reach the floor. The product needs no division, and is loose by more than the

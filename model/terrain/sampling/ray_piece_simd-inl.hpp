@@ -155,9 +155,11 @@ class RayPiece {
     }
     const float near_m = from_m_ + from * piece_m_, far_m = from_m_ + to * piece_m_;
     const float floor = ray_.floor[start_ + static_cast<std::size_t>(std::max(0.0F, from * steps_))];
-    // The drop of the earth's surface is that at the near end, less a thousandth for the series and rounding.
-    const float up_m =
-        static_cast<float>(highest) * grid_.unit_m - 0.4995F * near_m * near_m * ray_.curvature - ray_.altitude_m;
+    // The drop of the earth's surface is that at the near end, less a thousandth for the series and rounding. The lift
+    // of the highest ground is the greatest height: a lower point is lifted more, but by less than it is lower.
+    const float height_m = static_cast<float>(highest) * grid_.unit_m;
+    const float fall = ray_.least_fall - ray_.lift_per_height * height_m - ray_.lift_per_square * far_m * far_m;
+    const float up_m = height_m * ray_.series.upright - near_m * near_m * fall - ray_.series.altitude_m;
     const float out_m = up_m < 0.0F ? far_m * 1.01F : near_m * 0.99F;
     return up_m + 1.0F < floor * out_m;
   }

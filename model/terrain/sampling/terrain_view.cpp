@@ -12,6 +12,43 @@ int detail_for(double spacing_m) {
   return static_cast<int>(std::floor(std::log2(spacing_m)));
 }
 
+SightSeries::Line SightSeries::at(double curvature, double distance_m) const {
+  const double angle = distance_m * curvature, square = angle * angle;
+  const double f = static_cast<double>(fall) + square * static_cast<double>(fall_square);
+  const double t = static_cast<double>(tilt) + square * static_cast<double>(tilt_square);
+  return {static_cast<double>(altitude_m) + distance_m * angle * f,
+          angle > 0.0 ? std::sin(angle) / curvature : distance_m, std::sin(angle),
+          static_cast<double>(upright) - square * t};
+}
+
+// The squared slant range is that over ground plus that in height, (h - altitude - drop)^2. In it h h is taken as p h.
+// It is exact for ground at sea level and, up to 9 km, for ground at the altitude of the observer.
+SightSeries sight_series(const RaySight& sight) {
+  const double altitude_m = sight.altitude_m, p_m = std::min(altitude_m, 9000.0);
+  SightSeries series;
+  series.altitude_m = static_cast<float>(altitude_m);
+  if (!(sight.curvature > 0.0)) return series;
+  RayLift lift = sight.lift;
+  const double reach_m = static_cast<double>(sight.distance_m.empty() ? 0.0F : sight.distance_m.back());
+  // Beyond max_square_m2 the quotient of the lift is taken to be constant.
+  if (reach_m * reach_m > lift.max_square_m2) {
+    lift.level += 0.5 * lift.max_square_m2 * lift.per_square;
+    lift.per_height += 0.5 * lift.max_square_m2 * lift.per_both;
+    lift.per_square = lift.per_both = 0.0;
+  }
+  // Squared distances are squared angles times the squared radius.
+  const double radius_m = 1.0 / sight.curvature, square_m2 = radius_m * radius_m;
+  const double steep = lift.level;
+  series.fall = static_cast<float>(0.5 * (1.0 - 2.0 * altitude_m * steep) - lift.level * radius_m);
+  series.fall_square =
+      static_cast<float>(-1.0 / 24.0 - 0.25 * steep * radius_m - lift.per_square * square_m2 * radius_m);
+  series.upright = static_cast<float>(1.0 + steep * (p_m - 2.0 * altitude_m));
+  series.tilt = static_cast<float>(0.5 + steep * radius_m - lift.per_height * square_m2);
+  series.tilt_square = static_cast<float>(-1.0 / 24.0 - lift.per_both * square_m2 * square_m2);
+  series.altitude_m = static_cast<float>(altitude_m - steep * altitude_m * altitude_m);
+  return series;
+}
+
 namespace {
 
 // [m] Lower bound of the radii of curvature of WGS84. The smallest radius is the meridian's at the equator, 6335.4 km.

@@ -7,6 +7,7 @@
 // Threads: any thread may read a view, which is immutable. prepare() runs on one thread at a time and may wait.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -79,11 +80,46 @@ struct PostSpacing {
   double columns_deg = 0.0;  // [deg] longitude between columns; a column lies on every whole degree
 };
 
-// Geometry of a ray from an observer at its start, over the effective earth: a sphere that accounts for refraction.
+// Lift of a point by refraction, from one observer: its tangent of elevation is (up + lift) / out. Out and up are those
+// of the straight line to it. The lift is s (level + per_height h + min(s, max_square) (per_square + per_both h)), s
+// the squared slant range and h the height [m]. Zeros: rays are straight over the effective earth.
+struct RayLift {
+  double level = 0.0, per_height = 0.0, per_square = 0.0, per_both = 0.0;
+  double max_square_m2 = 0.0;
+
+  double at_m(double square_m2, double height_m) const {
+    return square_m2 *
+           (level + per_height * height_m + std::min(square_m2, max_square_m2) * (per_square + per_both * height_m));
+  }
+};
+
+// The height `up` of the fast path, with the lift: h tilt(a a) - d a fall(a a) - altitude_m. h and d are height and
+// distance of the point, a = d / radius. fall(x) = fall + fall_square x, tilt(x) = upright - x (tilt + tilt_square x).
+// The defaults are the series of 1 - cos a and cos a. The lift is within 0.4 m of RayLift::at_m() for points up to 4 km
+// high: it is linear in height.
+struct SightSeries {
+  float fall = 0.5F, fall_square = -1.0F / 24.0F;
+  float upright = 1.0F, tilt = 0.5F, tilt_square = -1.0F / 24.0F;
+  float altitude_m = 0.0F;
+
+  // Coefficients at one distance: the tangent of elevation is (h cosine - above) / (chord + h sine). `curvature`: of
+  // the sphere.
+  struct Line {
+    double above_m, chord_m, sine, cosine;
+    double tangent(double height_m) const { return (height_m * cosine - above_m) / (chord_m + height_m * sine); }
+  };
+  Line at(double curvature, double distance_m) const;
+};
+struct RaySight;
+SightSeries sight_series(const RaySight& sight);
+
+// Geometry of a ray from an observer at its start, over a sphere: the earth with the lift of refraction, or an
+// effective earth, whose radius accounts for refraction.
 struct RaySight {
-  double altitude_m = 0.0;            // [m] MSL of the observer
-  double curvature = 0.0;             // [1/m] curvature of the effective earth
-  std::span<const float> distance_m;  // [m] ground distance of the positions, ascending
+  double altitude_m = 0.0;  // [m] MSL of the observer
+  double curvature = 0.0;   // [1/m] of the sphere
+  RayLift lift{};
+  std::span<const float> distance_m{};  // [m] ground distance of the positions, ascending
   // For each position, the highest tangent of all positions up to it, itself included. Crests below it hide nothing,
   // and crests() may leave them out, as well as the ground shortly before evenly spaced positions (NearGround).
   // Empty: all crests are found.

@@ -140,7 +140,7 @@ class RandomConfiguration {
     made.earth = static_cast<radar::EarthModel>(random_() % 3);
     made.beam = static_cast<radar::BeamPattern>(random_() % 3);
     made.algorithm = static_cast<radar::Algorithm>(random_() % 2);
-    made.earth_radius_factor = number(0.5, 10);
+    if (coin()) made.earth_radius_factor = number(0.5, 10);
     made.samples = 1 + int(random_() % 4096);
     made.geodesic_knots = int(random_() % 10);
     made.interpolation = static_cast<radar::Interpolation>(random_() % 3);

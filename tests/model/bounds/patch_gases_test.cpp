@@ -48,7 +48,7 @@ TEST_P(PatchGasesOver, AttenuateGroundAtAnyHeightByTheirIntegral) {
   view.above_m = 6000.0;
   view.window_m = window_nm * geo::kMetresPerNauticalMile;
   const hrm::PatchOrder order = order_from(view);
-  const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+  const hrm::PatchGeometry geometry(order, configuration, kGround_m);
   const auto ground = ground_of([&](geo::GeoPoint position) {
     const hrm::MapPoint point = geometry.point_of(position);
     return std::hypot(point.right_m, point.up_m + view.distance_m) > view.distance_m + 1.0 ? kGround_m + kStep_m
@@ -91,7 +91,7 @@ TEST(PatchGases, AttenuateObjectsOfTheSceneByTheirIntegral) {
     const auto ground = ground_of(model::terrain::flat(kGround_m));
     const double ratio = cross_section_m2(map_of(configuration, true, order, ground, scene)) /
                          cross_section_m2(map_of(configuration, false, order, ground, scene));
-    const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+    const hrm::PatchGeometry geometry(order, configuration, kGround_m);
     EXPECT_NEAR(10.0 * std::log10(ratio),
                 -2.0 * gases_in_layers_db(configuration, geometry.earth().radius_m(), kGround_m + view.above_m,
                                           view.distance_m, kGround_m + 75.0),
@@ -109,7 +109,7 @@ TEST(PatchGases, AttenuateMoversByTheirIntegral) {
   const hrm::PatchOrder order = order_from(view);
   configuration.world.movers.push_back({"corner", kTarget, 0.0, 0.0, 1000.0, 0.0});
   const auto ground = ground_of(model::terrain::flat(kGround_m));
-  const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+  const hrm::PatchGeometry geometry(order, configuration, kGround_m);
   EXPECT_NEAR(10.0 * std::log10(cross_section_m2(map_of(configuration, true, order, ground)) / 1000.0),
               -2.0 * gases_in_layers_db(configuration, geometry.earth().radius_m(), kGround_m + view.above_m,
                                         view.distance_m, kGround_m),

@@ -78,7 +78,7 @@ Viewpoint view_from(double from_deg, double distance_m, double above_m, double w
 TEST(Standard, EqualsTheReferenceOverLevelGround) {
   const Setting setting{view_from(200.0, 37040.0, 4572.0, 1241.0), terrain::flat(kGround_m), {}};
   const Difference found = measure("level", setting, 96);
-  EXPECT_NEAR(found.power, 0.0, 0.001);
+  EXPECT_NEAR(found.power, 0.0, 0.002);  // the refraction of the fast path: 0.12 mrad of 7 degrees
   EXPECT_EQ(found.shadow, 0.0);
   EXPECT_LT(found.rms_db, 0.02);
 }
@@ -102,7 +102,7 @@ TEST(Standard, IsCloseToTheReferenceOverHills) {
 
 TEST(Standard, IsCloseToTheReferenceOverACone) {
   const hrm::PatchOrder order = order_from({});
-  const hrm::PatchGeometry geometry(order, radar::Fidelity(), kGround_m);
+  const hrm::PatchGeometry geometry(order, radar::RadarConfiguration(), kGround_m);
   const auto cone = [&](geo::GeoPoint position) {
     const hrm::MapPoint point = geometry.point_of(position);
     return kGround_m + std::max(0.0, 80.0 - 0.3 * std::hypot(point.right_m, point.up_m));

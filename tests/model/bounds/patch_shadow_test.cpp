@@ -79,7 +79,8 @@ struct PresetGround {
       const std::size_t at = grid.at(column, row);
       const double distance_m = grid.distance_m(row);
       const auto tangent = [&](float height_m) {
-        return (static_cast<double>(height_m) - geometry.above_plane_m(distance_m)) / distance_m;
+        return (static_cast<double>(height_m) - geometry.above_plane_m(distance_m)) /
+               geometry.sight_distance_m(distance_m);
       };
       if (crests.any()) highest = std::max(highest, tangent(crest_m[at]));
       lit_rows.push_back(tangent(surface[at].height_m) > highest);
@@ -94,7 +95,7 @@ std::unique_ptr<PresetGround> compute_ground(const radar::RadarConfiguration& co
                                              const hrm::PatchOrder& order, const terrain::TerrainViewPointer& window,
                                              const terrain::TerrainViewPointer& path) {
   const double elevation_m = window->elevation_m(order.centre);
-  const hrm::PatchGeometry geometry(order, configuration.fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
+  const hrm::PatchGeometry geometry(order, configuration, std::isnan(elevation_m) ? 0.0 : elevation_m);
   const int pixels = configuration.fidelity.map_size;
   const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
   const int cells = exact ? hrm::kReferenceCells : configuration.fidelity.map_oversampling;

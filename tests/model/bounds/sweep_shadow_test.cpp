@@ -53,8 +53,9 @@ struct Truth {
 // `posts_m`: post spacing of `finest`.
 Truth brute_force(const physics::SweepGeometry& geometry, const terrain::TerrainView& finest, double posts_m,
                   std::size_t samples) {
-  radar::Fidelity exact;
-  const physics::EffectiveEarth earth = physics::effective_earth(exact, geometry.apex, geometry.azimuth);
+  radar::RadarConfiguration exact;
+  exact.fidelity = *radar::fidelity_preset("reference");  // traced rays
+  const physics::EffectiveEarth earth = physics::effective_earth(exact, geometry);
   const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
   const double spacing_m = geometry.range.metres() / static_cast<double>(samples);
   const auto steps = static_cast<int>(std::ceil(spacing_m / (0.1 * posts_m)));

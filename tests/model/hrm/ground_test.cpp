@@ -54,7 +54,7 @@ TEST(Ridge, ShadowsTheWindowUpToTheEndOfItsShadow) {
   Viewpoint view;
   view.window_m = 4000.0;
   const hrm::PatchOrder order = order_from(view);
-  const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+  const hrm::PatchGeometry geometry(order, configuration, kGround_m);
   // Round hill of 600 m at 16 km. The line of sight from 3000 m over its crest meets the ground near 20 km, the centre.
   const auto hill = [](double distance_m) {
     const double off = (distance_m - 16000.0) / 1500.0;
@@ -77,7 +77,7 @@ TEST(Ridge, ShadowsTheWindowUpToTheEndOfItsShadow) {
 TEST(Void, IsDarkAndHidesNothing) {
   const radar::RadarConfiguration configuration = bare_map(240);
   const hrm::PatchOrder order = order_from({});
-  const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+  const hrm::PatchGeometry geometry(order, configuration, kGround_m);
   const auto with_void = [&](geo::GeoPoint position) {
     const hrm::MapPoint point = geometry.point_of(position);
     return std::hypot(point.right_m, point.up_m - 200.0) < 100.0 ? std::numeric_limits<double>::quiet_NaN() : kGround_m;
@@ -98,7 +98,7 @@ TEST(Void, IsDarkAndHidesNothing) {
 TEST(Void, AtTheNearEdgeHidesNoLowGroundBehindIt) {
   const radar::RadarConfiguration configuration = bare_map(240);
   const hrm::PatchOrder order = order_from({});
-  const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+  const hrm::PatchGeometry geometry(order, configuration, kGround_m);
   const auto valley = [&](geo::GeoPoint position) {
     const double up_m = geometry.point_of(position).up_m;
     if (up_m < -560.0) return std::numeric_limits<double>::quiet_NaN();
@@ -175,7 +175,7 @@ hrm::PatchGeometry geometry_at(double distance_m, double window_m) {
   Viewpoint view;
   view.distance_m = distance_m;
   view.window_m = window_m;
-  return {order_from(view), bare_map(64).fidelity, kGround_m};
+  return {order_from(view), bare_map(64), kGround_m};
 }
 
 TEST(BlindZone, HasThePixelsThatLieInItByAngle) {

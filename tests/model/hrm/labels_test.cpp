@@ -87,7 +87,7 @@ Profile search(const hrm::PatchFormation& process, const hrm::PatchOrder& order,
     const geo::GeoPoint position = geo::geodesic_direct(order.apex, geometry.up() + geo::Angle::radians(turn_rad),
                                                         geo::Length::metres(distance_m));
     const double height_m = ground.elevation_m(position) - geometry.plane_msl_m();
-    const double tangent = (height_m - geometry.above_plane_m(distance_m)) / distance_m;
+    const double tangent = (height_m - geometry.above_plane_m(distance_m)) / geometry.sight_distance_m(distance_m);
     profile.distance_m.push_back(distance_m);
     profile.height_m.push_back(height_m);
     profile.lit.push_back(tangent > horizon);

@@ -25,7 +25,7 @@ TEST(PatchGeometry, ReturnsAPositionWithinAMillimetreAnywhereOnEarth) {
       view.target = target;
       view.from_deg = from_deg;
       view.distance_m = 80.0 * geo::kMetresPerNauticalMile;
-      const PatchGeometry geometry(order_from(view), radar::Fidelity(), 0.0);
+      const PatchGeometry geometry(order_from(view), radar::RadarConfiguration(), 0.0);
       for (const MapPoint point : {MapPoint{0.0, 0.0}, MapPoint{9000.0, -7000.0}, MapPoint{-400.0, 30000.0}}) {
         const MapPoint back = geometry.point_of(geometry.position_of(point));
         EXPECT_NEAR(back.right_m, point.right_m, 1e-3) << target.latitude_deg << ' ' << from_deg;
@@ -43,7 +43,7 @@ TEST(PatchGeometry, LaysARaisedPointOverToTheGroundAtItsSlantRange) {
       Viewpoint view;
       view.distance_m = distance_m;
       view.above_m = above_m;
-      const PatchGeometry geometry(order_from(view), radar::Fidelity(), kGround_m);
+      const PatchGeometry geometry(order_from(view), radar::RadarConfiguration(), kGround_m);
       for (const double height_m : {-100.0, 20.0, 400.0}) {
         const double slant_m = geometry.earth().sight(above_m, distance_m, height_m).slant_range_m;
         const double exact_m = geometry.earth().distance_at_slant_range(above_m, 0.0, slant_m);
@@ -66,7 +66,7 @@ TEST(PlacedTiles, AreThoseOnThePolarGridAnywhereOnEarth) {
       view.from_deg = 310.0;
       view.window_m = window_nm * geo::kMetresPerNauticalMile;
       view.distance_m = std::max(20'000.0, 1.5 * view.window_m);
-      const PatchGeometry geometry(order_from(view), radar::Fidelity(), kGround_m);
+      const PatchGeometry geometry(order_from(view), radar::RadarConfiguration(), kGround_m);
       const hrm::PolarGrid grid = hrm::make_polar_grid(geometry, kPixels, 1, {0.3 * view.window_m, view.window_m});
       std::vector<model::scene::Tile> tiles;
       const auto add = [&](double right_m, double ahead_m) {

@@ -31,7 +31,7 @@ double near_margin_m(const hrm::PatchGeometry& geometry, hrm::MapPoint position)
 class Margins : public testing::Test {
  protected:
   Viewpoint view_;
-  hrm::PatchGeometry geometry_{order_from(view_), bare_map().fidelity, kGround_m};
+  hrm::PatchGeometry geometry_{order_from(view_), bare_map(), kGround_m};
   double half_m_ = 0.5 * view_.window_m;
   double shadow_m_ = kTower.height_m * view_.distance_m / view_.above_m;
   double reach_m_ = std::hypot(0.5 * kTower.length_m, 0.5 * kTower.width_m);  // radius of the tile about its origin

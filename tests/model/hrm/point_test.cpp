@@ -55,7 +55,7 @@ TEST(CornerReflector, StandsAtItsPositionAsWideAsACellWithTaylorsSidelobes) {
     Viewpoint view;
     view.from_deg = from_deg;
     const hrm::PatchOrder order = order_from(view);
-    const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
+    const hrm::PatchGeometry geometry(order, bare_map(), kGround_m);
     const auto process = make_patch(with_mover(kSize, {"corner", geometry.position_of(wanted), 0.0, 0.0, 1000.0, 0.0}),
                                     order, ground_of(model::terrain::flat(kGround_m)));
     const hrm::MapImage& image = process.image();
@@ -78,7 +78,7 @@ TEST(CornerReflector, StandsAtItsPositionAsWideAsACellWithTaylorsSidelobes) {
 
 TEST(CornerReflector, BehindAHillIsNotSeen) {
   const hrm::PatchOrder order = order_from({});
-  const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
+  const hrm::PatchGeometry geometry(order, bare_map(), kGround_m);
   const model::terrain::TerrainAxis axis{order.apex, geometry.up()};
   const auto hill = model::terrain::ridge(axis, geometry.distance_m() - 200.0, 150.0, 60.0);
   const auto ground = ground_of([&](geo::GeoPoint position) { return kGround_m + hill(position); });
@@ -115,7 +115,7 @@ TEST(Mover, IsDisplacedByRangeTimesItsRadialSpeedOverTheAircraftsCrossRangeSpeed
     for (const double receding_mps : {5.0, -3.0}) {
       hrm::PatchOrder order = order_from(view);
       order.ground_track = order.ground_track + geo::Angle::degrees(90.0 - squint_deg);
-      const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
+      const hrm::PatchGeometry geometry(order, bare_map(), kGround_m);
       radar::Mover mover{"mover", order.centre, std::abs(receding_mps), geometry.up().degrees(), 1000.0, 0.0};
       if (receding_mps < 0.0) mover.heading_deg += 180.0;
       const auto process = make_patch(with_mover(480, mover), order, ground_of(model::terrain::flat(kGround_m)));
@@ -133,7 +133,7 @@ TEST(Mover, IsDisplacedByRangeTimesItsRadialSpeedOverTheAircraftsCrossRangeSpeed
 
 TEST(Mover, ThatMovesAcrossTheLineOfSightIsSmearedAndNotDisplaced) {
   const hrm::PatchOrder order = order_from({});
-  const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
+  const hrm::PatchGeometry geometry(order, bare_map(), kGround_m);
   const radar::Mover mover{"mover", order.centre, 20.0, geometry.up().degrees() + 90.0, 1000.0, 0.0};
   const auto process = make_patch(with_mover(480, mover), order, ground_of(model::terrain::flat(kGround_m)));
   const double path_m = 20.0 * process.formation().seconds();

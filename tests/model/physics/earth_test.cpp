@@ -32,6 +32,7 @@ TEST(EffectiveEarth, HasTheDropsOfTheSpecification) {
 TEST(EffectiveEarth, HasTheHorizonAtTheRootOfTwoKRadiusHeight) {
   radar::RadarConfiguration configuration = test::bare_configuration(4096);
   configuration.fidelity.earth = radar::EarthModel::sphere;
+  configuration.fidelity.earth_radius_factor = 4.0 / 3.0;
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   const double range_m = 160.0 * geo::kMetresPerNauticalMile;
   const auto samples = test::seen_by_reference(configuration, test::geometry_north(1000.0, range_m), sea);

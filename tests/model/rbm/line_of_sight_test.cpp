@@ -58,6 +58,7 @@ std::optional<bool> visible(const std::vector<Vector>& ground, const std::vector
 int expect_equal_to_brute_force(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   radar::RadarConfiguration configuration = test::bare_configuration(400);
   configuration.fidelity.earth = radar::EarthModel::ellipsoid;
+  configuration.fidelity.earth_radius_factor = 4.0 / 3.0;
   const auto samples = test::seen_by_reference(configuration, geometry, terrain);
   const double radius_m = 4.0 / 3.0 * geo::radius_of_curvature(geometry.apex.latitude_deg, geometry.azimuth).metres();
   const double azimuth_rad = geometry.azimuth.radians();

@@ -155,7 +155,7 @@ TEST_F(LoneWall, HasTheSameCrestsAfterATurnOfLongitude) {
   const auto crests = [&] {
     std::vector<float> found(100 + physics::kPairSlack);
     EXPECT_TRUE(
-        view.crests(positions.run(), {9000.0, 0.0, std::span(distance_m).first(100)}, std::span(found).first(100)));
+        view.crests(positions.run(), {9000.0, 0.0, {}, std::span(distance_m).first(100)}, std::span(found).first(100)));
     return found;
   };
   const std::vector<float> without_turn = crests();
@@ -201,7 +201,7 @@ TEST_F(LoneWall, HidesTheSameWithAHorizonToReach) {
           horizon[i] = highest = std::max(highest, tangent(distance_m[i], height_m[i]));
         const auto crests = [&](std::span<const float> reached, std::vector<float>& found) {
           ASSERT_TRUE(view_.crests(positions.run(),
-                                   {altitude_m, earth.curvature(), std::span(distance_m).first(kCount), reached},
+                                   {altitude_m, earth.curvature(), {}, std::span(distance_m).first(kCount), reached},
                                    std::span(found).first(kCount)));
         };
         crests({}, all);
@@ -234,7 +234,8 @@ TEST_F(LoneWall, HasTheSameCrestsOnEveryVectorTarget) {
         std::vector<float> first;
         test::for_each_vector_target([&](const char* name) {
           std::vector<float> crests(333 + physics::kPairSlack);
-          ASSERT_TRUE(view_.crests(positions.run(), {1500.0, 1.0 / 8.5e6, std::span(distance_m).first(333), horizon},
+          ASSERT_TRUE(view_.crests(positions.run(),
+                                   {1500.0, 1.0 / 8.5e6, {}, std::span(distance_m).first(333), horizon},
                                    std::span(crests).first(333)));
           crests.resize(333);
           EXPECT_GT(*std::max_element(crests.begin(), crests.end()), terrain::kNoTangent) << azimuth_deg;

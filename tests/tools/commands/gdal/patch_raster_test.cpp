@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/radar/fidelity.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tests/endtoend/process_set.hpp"
@@ -119,7 +119,7 @@ TEST(PatchRaster, CornersEdgesAndCentreHaveTheirPositions) {
     order.apex = view.aircraft;
     order.centre = view.target;
     order.window = geo::Length::nautical_miles(view.window_nm);
-    const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), 0.0);
+    const model::hrm::PatchGeometry geometry(order, radar::RadarConfiguration(), 0.0);
     for (const double right : {-0.5, 0.0, 0.5}) {
       for (const double up : {-0.5, 0.0, 0.5}) {
         const auto pixel =

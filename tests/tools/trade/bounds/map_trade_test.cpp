@@ -93,7 +93,7 @@ TEST_F(MapTrade, WithoutLayoverMarksAreOffByHeightTimesTheTangentOfGrazing) {
   const double with_m = errors_against(exact, observe(flat, view)).position_m;
   flat.map_layover = false;
   const MapErrors without = errors_against(exact, observe(flat, view));
-  const hrm::PatchGeometry geometry(order_of(view), radar::Fidelity(), ground_->elevation_m(kTarget));
+  const hrm::PatchGeometry geometry(order_of(view), radar::RadarConfiguration(), ground_->elevation_m(kTarget));
   double farthest_m = 0.0;
   const MarkScene marks(order_of(view));
   for (const model::scene::SceneObject& mark : marks.objects())
