@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "lib/radar/modes.hpp"
-#include "lib/radar/not_given.hpp"
 
 namespace yars::radar {
 

@@ -11,7 +11,6 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/modes.hpp"
-#include "lib/radar/not_given.hpp"
 #include "lib/values/defaults.hpp"
 
 namespace yars::radar {
