@@ -21,6 +21,7 @@ model::kernel::ScanRequest kernel_request(const ScanRequest& request) {
   scan.pose.altitude = geo::AltitudeMsl::feet(request.altitude_ft);
   scan.pose.platform.heading = geo::Bearing::degrees(request.heading_deg);
   scan.pose.platform.ground_track = scan.pose.platform.heading;
+  scan.pose.ground_speed = geo::Speed::knots(request.speed_kt);
   scan.range = geo::Length::nautical_miles(request.range_nm);
   scan.width = geo::Angle::degrees(request.width_deg);
   scan.elevation = geo::Angle::degrees(request.elevation_deg);
@@ -176,8 +177,8 @@ ScanLabels empty_labels(std::size_t count) {
   return labels;
 }
 
-// Fills in layover. A lit sample is laid over if a nearer one is seen at a greater slant range, or a farther one at a
-// lesser. `first`: of the sweep's samples.
+// Fills in layover of samples of ground range. A lit sample is laid over if a nearer one is seen at a greater slant
+// range, or a farther one at a lesser. `first`: of the sweep's samples.
 void label_layover(ScanLabels& labels, std::size_t first, std::size_t samples) {
   const auto lit = [&](std::size_t i) { return labels.shadow[i] == 0 && !std::isnan(labels.height_m[i]); };
   double farthest_m = 0.0;
@@ -194,7 +195,7 @@ void label_layover(ScanLabels& labels, std::size_t first, std::size_t samples) {
   }
 }
 
-// Fills in all labels of a sweep but the layover. `first`: of the sweep's samples.
+// Fills in all labels of a sweep; layover of samples of slant range only. `first`: of the sweep's samples.
 void label_samples(ScanLabels& to, std::size_t first, std::span<const radar::RaySample> samples,
                    const model::physics::SweepGeometry& geometry, const model::physics::EffectiveEarth& earth,
                    const std::optional<Scene>& scene) {
@@ -211,13 +212,15 @@ void label_samples(ScanLabels& to, std::size_t first, std::span<const radar::Ray
     to.slant_range_m[i] = sight.slant_range_m;
     to.height_m[i] = static_cast<float>(height_m);
     to.shadow[i] = sample.lit ? 0 : 1;
+    to.layover[i] = sample.laid_over ? 1 : 0;
     to.material[i] = sample.ground.material == 0 && sample.ground.water > 0.5
                          ? static_cast<std::uint8_t>(radar::kWaterMaterial)
                          : sample.ground.material;
     if (scene) to.object[i] = radar::object_at(scene->parts().groups, sample.position);
     // Grazing angle on the profile: that on the level, plus the slope from the sample before.
-    const double slope_rad =
-        std::isnan(before_height_m) ? 0.0 : std::atan2(height_m - before_height_m, sample.distance_m - before_m);
+    const double slope_rad = std::isnan(before_height_m) || sample.distance_m <= before_m
+                                 ? 0.0
+                                 : std::atan2(height_m - before_height_m, sample.distance_m - before_m);
     if (sample.lit) {
       const double grazing_deg =
           (std::asin(std::clamp(sight.sin_grazing, -1.0, 1.0)) + slope_rad) / geo::kRadiansPerDegree;
@@ -244,7 +247,7 @@ Expected<const ScanLabels*> Scan::labels(const Call& call) {
       const auto earth = model::physics::effective_earth(work_->configuration, geometry);
       label_samples(labels, sweep * width, std::span(samples).subspan(sweep * width, width), geometry, earth,
                     work_->scene);
-      label_layover(labels, sweep * width, width);
+      if (!work_->configuration.fidelity.slant_range) label_layover(labels, sweep * width, width);
     }
     return &work_->labels.emplace(std::move(labels));
   });

@@ -15,6 +15,7 @@
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/beam.hpp"
+#include "model/rbm/slant_axis.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "radar/limits.hpp"
 
@@ -176,6 +177,25 @@ RaySample sample_at(const RadarConfiguration& configuration, const geo::Geodesic
   return sample;
 }
 
+// Replaces distances and masks of samples of ground range by those of samples of slant range.
+void show_slant_ranges(const RadarConfiguration& configuration, const SweepGeometry& geometry,
+                       const model::terrain::TerrainView& terrain, std::vector<double>& distance_m,
+                       std::vector<std::uint8_t>& lit, std::vector<std::uint8_t>& laid_over) {
+  const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
+  std::vector<double> height_m(distance_m.size());
+  std::transform(distance_m.begin(), distance_m.end(), height_m.begin(), [&](double distance) {
+    return terrain.surface_at(ray.position(geo::Length::metres(distance)), configuration.fidelity.interpolation)
+        .elevation_m;
+  });
+  const auto earth = model::physics::effective_earth(configuration, geometry);
+  const auto shown = model::rbm::shown_at_slant_ranges(geometry, earth, distance_m, height_m, lit);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    distance_m[i] = shown[i].distance_m;
+    lit[i] = shown[i].lit ? 1 : 0;
+    laid_over[i] = shown[i].laid_over ? 1 : 0;
+  }
+}
+
 }  // namespace
 
 std::vector<RaySample> ray_samples(const RadarConfiguration& given,
@@ -186,7 +206,7 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given,
   const std::size_t count = model::rbm::sample_count(configuration);
   std::vector<double> distance_m(count);
   std::vector<float> power(count);
-  std::vector<std::uint8_t> lit(count);
+  std::vector<std::uint8_t> lit(count), laid_over(count);
   std::vector<RaySample> samples;
   samples.reserve(positions.size() * count);
   for (std::size_t sweep = 0; sweep < positions.size(); ++sweep) {
@@ -195,12 +215,14 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given,
     geometry.elevation = geo::Angle();
     algorithm->measure(geometry, terrain, power);
     algorithm->lit(lit);
-    const auto earth = model::physics::effective_earth(configuration, geometry);
-    model::physics::sample_distances(configuration, earth, geometry, terrain, distance_m);
+    model::physics::sample_distances(geometry.range, distance_m);
     const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
+    if (configuration.fidelity.slant_range)
+      show_slant_ranges(configuration, geometry, terrain, distance_m, lit, laid_over);
     for (std::size_t i = 0; i < count; ++i) {
       samples.push_back(sample_at(configuration, ray, distance_m[i], terrain));
       samples.back().lit = lit[i] != 0;
+      samples.back().laid_over = laid_over[i] != 0;
       samples.back().returns = power[i] > kMinScanPower;
     }
   }

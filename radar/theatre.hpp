@@ -127,6 +127,7 @@ struct RaySample {
   geo::GeoPoint position;          // the aircraft's position where distance_m is NaN
   model::terrain::Surface ground;  // void where distance_m is NaN
   bool lit = false;                // false: in shadow, void or not loaded
+  bool laid_over = false;          // samples of slant range: other lit ground has the same slant range
   // True: power above kMinScanPower, seen with a beam nearly 180 deg wide in elevation. Rain also gives power to
   // samples in shadow.
   bool returns = false;

@@ -368,10 +368,11 @@ std::vector<SlotSchema> noise_slots() {
   return {number_slot("floor", "dB", -120, 0, {YARS_FIELD(radar.receiver.noise_floor_db)},
                       "thermal noise with the pulse of the 40 NM range, relative to full scale"),
           {.name = "looks",
-           .lowest = values::PatchRequest::looks.low,
+           .lowest = 0,
            .highest = values::PatchRequest::looks.high,
            .binding = IntegerSlot{YARS_FIELD(radar.receiver.looks)},
-           .purpose = "independent looks averaged in each sample; more looks give less speckle"},
+           .purpose = "independent looks averaged in each sample; more looks give less speckle; 0: by the Doppler "
+                      "spread of the beam, one near the track and many beside it"},
           {.name = "seed",
            .lowest = 0,
            .highest = 9'007'199'254'740'992.0,  // 2^53: every integer up to it is exact as a double

@@ -40,7 +40,7 @@ struct ReceiverConfiguration {
   double gain_step_db = 8.0;       // [dB] gain change between neighbouring settings GAIN 3, 2, 1, 0
   double noise_floor_db = -55.0;   // [dB] thermal noise relative to full scale, with the pulse of 40 NM
   double land_gamma_db = -14.0;    // [dB] gamma of land without culture: sigma0 = gamma sin(grazing angle)
-  int looks = 4;                   // independent looks averaged in each sample; more looks give less speckle
+  int looks = 0;                   // independent looks averaged in each sample; 0: by the Doppler spread in the beam
 };
 
 // Patch maps and the Doppler beam sharpened scan (HRM PPI); docs/spec/physics.md#hrm.

@@ -32,6 +32,9 @@ error::Expected<radar::RadarConfiguration> configure(const runtime::ProgramOptio
     return error::fail("mapSize of Fidelity",
                        "at most " + std::to_string(databuffer::kMaxPatchPixels) + " in a session", std::to_string(size),
                        "set mapSize; `yars patch --size` makes larger maps");
+  if (configuration->fidelity.slant_range)
+    return error::fail("slantRange of Fidelity", "false in a session, whose symbols and cursor are in ground range",
+                       "true", "`yars scan` and Python make sweeps in slant range");
   return configuration;
 }
 

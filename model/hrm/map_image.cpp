@@ -199,7 +199,7 @@ void Speckle::draw_cells(int cell_row, std::vector<float>& field) {
 const float* Speckle::row(int row) {
   if (!finer_) {
     const auto name = static_cast<std::uint32_t>(row);
-    physics::simd::speckle(static_cast<std::size_t>(size_), physics::make_noise_state({seed_, map_, name}), looks_,
+    physics::simd::speckle(static_cast<std::size_t>(size_), physics::make_noise_state({seed_, map_, name}), looks_, {},
                            intensity_.data());
     return intensity_.data();
   }
@@ -238,7 +238,6 @@ void form_video(const radar::HighResolutionConfiguration& hrm, const MapImage& i
                                             kNoSmear.data(),
                                             static_cast<float>(noise.thermal),
                                             noise.with_speckle ? speckle.row(static_cast<int>(row)) : nullptr,
-                                            nullptr,
                                             static_cast<float>(-hrm.brightest_gamma_db),
                                             static_cast<float>(hrm.dynamic_range_db),
                                             nullptr};

@@ -44,6 +44,7 @@ void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, co
          centre + geo::Angle::degrees(pattern.edge_deg(i + 1, kClockwise)), request.pose.platform.ground_track,
          request.elevation, request.range, kClockwise, sim_time_of(request.sim_time_ns + i * radar::kTickNanoseconds),
          request.band, request.channel});
+    positions_.back().ground_speed = request.pose.ground_speed;
   }
 }
 

@@ -199,6 +199,7 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
                      sim_time_of(input.sim_time_ns),
                      input.command.band,
                      input.command.channel};
+  header.ground_speed = pose->ground_speed;
   if (const antenna::ScanPattern& pattern = antenna.pattern(); pattern.bars > 1) {
     const geo::Angle commanded = geo::Angle::degrees(input.command.antenna_elevation_deg);
     header.bars_above = commanded + geo::Angle::degrees(pattern.bar_deg(0)) - step.elevation;

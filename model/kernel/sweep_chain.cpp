@@ -151,8 +151,10 @@ void finish_sweep(rbm::Beam& beam, std::uint64_t seed, const SweepHeader& header
     std::fill(video.begin(), video.end(), std::uint8_t{0});
   } else {
     physics::PowerWindow amplified = window;
+    const physics::SweepGeometry geometry = geometry_of(header);
+    amplified.looks = beam.looks(geometry, header.ground_speed, header.ground_track);
     const bool ground = (labels.flags & kNoEchoFlags) == 0U && !is_beacon(labels);
-    if (ground) amplified.automatic_gain_db = beam.automatic_gain_db(geometry_of(header));
+    if (ground) amplified.automatic_gain_db = beam.automatic_gain_db(geometry);
     beam.form_video(amplified, header.range, labels.gain, {seed, labels.scan, labels.number}, video);
   }
   sweep.hash = databuffer::sweep_hash(sweep);

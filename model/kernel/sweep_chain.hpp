@@ -44,6 +44,7 @@ struct SweepHeader {
   // Angles from `elevation` up to the scan's highest bar and down to its lowest bar; 0 with one bar.
   geo::Angle bars_above{};
   geo::Angle bars_below{};
+  geo::Speed ground_speed{};
 };
 
 inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {

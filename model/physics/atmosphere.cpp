@@ -244,17 +244,13 @@ GasSamples::Parabola GasSamples::parabola_at(const GasPath& path, double altitud
   return {low, (middle - low) / h[1] - bend * h[1], bend};
 }
 
-void GasSamples::use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m,
-                     bool same_distances) {
-  const bool known = altitude_m == altitude_m_ && range_m == range_m_;
-  if (known && same_distances) return;
-  if (!known) {
-    altitude_m_ = altitude_m;
-    range_m_ = range_m;
-    earth_ = effective_earth(parameters_, {}, geo::AltitudeMsl::metres(altitude_m), {});
-    for (std::size_t knot = 0; knot < kKnots; ++knot)
-      knots_[knot] = parabola_at(path, altitude_m, range_m * static_cast<double>(knot) / (kKnots - 1));
-  }
+void GasSamples::use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m) {
+  if (altitude_m == altitude_m_ && range_m == range_m_) return;
+  altitude_m_ = altitude_m;
+  range_m_ = range_m;
+  earth_ = effective_earth(parameters_, {}, geo::AltitudeMsl::metres(altitude_m), {});
+  for (std::size_t knot = 0; knot < kKnots; ++knot)
+    knots_[knot] = parabola_at(path, altitude_m, range_m * static_cast<double>(knot) / (kKnots - 1));
   const double scale = static_cast<double>(kKnots - 1) / range_m;
   for (std::size_t i = 0; i < distance_m.size(); ++i) {
     const double index = std::clamp(static_cast<double>(distance_m[i]) * scale, 0.0, static_cast<double>(kKnots - 1));

@@ -89,10 +89,9 @@ class GasSamples {
  public:
   GasSamples(const RadarParameters& parameters, std::size_t samples);
 
-  // Sets the samples' distances over ground, ascending. `same_distances`: true if the distances depend on `range_m`
-  // alone, as for equal steps of ground range. Then nothing is recomputed while altitude and range are unchanged.
-  void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m,
-           bool same_distances);
+  // Sets the samples' distances over ground, ascending, which depend on `range_m` alone. Nothing is recomputed while
+  // altitude and range are unchanged.
+  void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m);
   // power[i] *= two-way loss for ground at height_m[i]. A NaN height counts as sea level.
   void apply(const float* height_m, float* power) const;
   // Two-way loss for ground at the height h [m MSL], one entry per sample: constant + h (slope + h bend), with h

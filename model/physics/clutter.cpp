@@ -16,6 +16,13 @@ NoiseState make_noise_state(const NoiseKey& key) {
   return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32U)};
 }
 
+SpeckleCells speckle_cells(double spacing_m, double pulse_length_m, NoiseState state) {
+  if (!(pulse_length_m > spacing_m)) return {};
+  constexpr float kStep = 1.0F / 16777216.0F;
+  const auto uniform = [](std::uint32_t bits) { return kStep * static_cast<float>(bits >> 8U); };
+  return {static_cast<float>(spacing_m / pulse_length_m), uniform(state.first), uniform(state.second)};
+}
+
 GroundGrid make_ground_grid(double edge_m) {
   GroundGrid grid;
   grid.rows_per_degree = kGridMetresPerDegree / edge_m;

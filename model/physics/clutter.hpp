@@ -42,13 +42,18 @@ inline std::uint32_t noise_bits(NoiseState state, std::uint32_t cell, std::uint3
   return keyed ^ (keyed >> 15U);
 }
 
-// Resolution cells per sample, at most 1. Samples within one pulse length share a cell and fluctuate together.
-inline float cells_per_sample(double spacing_m, double pulse_length_m) {
-  return static_cast<float>(pulse_length_m > spacing_m ? spacing_m / pulse_length_m : 1.0);
-}
-// Resolution cell of a sample. `cells`: cells_per_sample().
-inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
-  return static_cast<std::uint32_t>((static_cast<float>(static_cast<std::int32_t>(sample)) + 0.5F) * cells);
+// Cells of speckle along a sweep. Samples of one cell fluctuate together. Two rulers of the pulse length L, with random
+// places in each sweep, cut the sweep into cells. Samples at the distance D share one with the probability (1 - D/L)^2:
+// the correlation of the power of a rectangular pulse in a matched receiver.
+struct SpeckleCells {
+  // Marks of a ruler per sample, and where the two rulers begin. The default gives each sample its own cell.
+  float per_sample = 0.5F, first = 0.0F, second = 0.5F;
+};
+SpeckleCells speckle_cells(double spacing_m, double pulse_length_m, NoiseState state);
+
+inline std::uint32_t cell_of(std::uint32_t sample, SpeckleCells cells) {
+  const float along = (static_cast<float>(static_cast<std::int32_t>(sample)) + 0.5F) * cells.per_sample;
+  return static_cast<std::uint32_t>(along + cells.first) + static_cast<std::uint32_t>(along + cells.second);
 }
 
 // Grid of cells of about equal size on the earth. Each cell has its own random bits, which do not change between scans.

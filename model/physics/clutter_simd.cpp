@@ -84,15 +84,19 @@ HWY_INLINE Floats uniform(Bits sixteen, bool used) {
   return polynomials::step(d, number, hn::Set(d, kStep), 0.5F * kStep);
 }
 
-void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
+void speckle(std::size_t count, NoiseState state, int looks, SpeckleCells cells, float* variate) {
   const Tag d;
+  const SignedTag di;
   const BitsTag db;
   const auto low = hn::Set(db, 0xffffU);
   const auto scale = hn::Set(d, kLn2 / static_cast<float>(looks));
   // The lane numbers are made outside the loop, because Iota loads them from memory.
-  const auto lane = hn::Iota(db, 0U);
-  for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
-    const auto cell = hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i)));
+  const auto lane = hn::Iota(d, 0.5F);
+  const auto after = [&](Floats along, float start) { return hn::ConvertTo(di, hn::Add(along, hn::Set(d, start))); };
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto sample = hn::Add(lane, hn::Set(d, static_cast<float>(static_cast<std::int32_t>(i))));
+    const auto along = hn::Mul(sample, hn::Set(d, cells.per_sample));
+    const auto cell = hn::BitCast(db, hn::Add(after(along, cells.first), after(along, cells.second)));
     auto sum = hn::Zero(d);
     for (int first = 0; first < looks; first += kLooksPerGroup) {
       // The sum of up to four exponential variates is minus the logarithm of a product of uniform variates.
@@ -116,16 +120,6 @@ HWY_INLINE Floats load(const float* from, std::size_t remaining) {
   HWY_ALIGN float entries[kMaxLanes] = {};
   std::copy_n(from, remaining, entries);
   return hn::Load(d, entries);
-}
-
-// Variate of each sample's cell. The cells of a vector are neighbours, so one load and a permutation are enough.
-HWY_INLINE Floats variates(const VideoInputs& in, std::size_t i) {
-  const Tag d;
-  const SignedTag di;
-  if (in.cell == nullptr) return hn::LoadU(d, in.variate + i);
-  const std::int32_t first = in.cell[i];
-  const auto offset = hn::Sub(hn::LoadU(di, in.cell + i), hn::Set(di, first));
-  return hn::TableLookupLanes(hn::LoadU(d, in.variate + first), hn::IndicesFromVec(d, offset));
 }
 
 // Nearest integer of a value between -2^21 and 2^21. The last mantissa bit of value + 1.5 * 2^23 has the weight 1.
@@ -153,7 +147,7 @@ void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* vide
     auto power = fused::mul_add(first, load(in.before + i, remaining), received);
     power = fused::mul_add(second, load(in.centre + i, remaining), power);
     power = fused::mul_add(third, load(in.after + i, remaining), power);
-    if (in.variate != nullptr) power = hn::Mul(power, variates(in, i));
+    if (in.variate != nullptr) power = hn::Mul(power, hn::LoadU(d, in.variate + i));
     // The lower limit keeps the logarithm's argument a normal float.
     const auto level = fused::mul_add(slope, polynomials::rough_log2(d, hn::Max(power, hn::Set(d, 1.0e-30F))), base);
     // Conversion to bytes saturates, which clips the video.
@@ -212,8 +206,8 @@ TextureDegree texture_degree(const GroundInputs& ground, float cells_north, floa
 HWY_EXPORT(speckle);
 HWY_EXPORT(form_video);
 
-void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
-  HWY_DYNAMIC_DISPATCH(speckle)(cells, state, looks, variate);
+void speckle(std::size_t count, NoiseState state, int looks, SpeckleCells cells, float* variate) {
+  HWY_DYNAMIC_DISPATCH(speckle)(count, state, looks, cells, variate);
 }
 void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
   HWY_DYNAMIC_DISPATCH(form_video)(count, inputs, video);

@@ -67,25 +67,24 @@ std::size_t next_sample_with_material(std::size_t count, std::uint32_t codes, co
 // `sigma0` has capacity for the entries and one more vector.
 void sigma0_at_azimuth(const SeaTable& table, float cosine, float* sigma0);
 
-// Fills variate[cell] = gamma variate of mean 1 and variance 1/looks, for resolution cells 0..cells-1. Up to 16 more
+// Fills variate[i] = gamma variate of mean 1 and variance 1/looks of the cell of sample i < count. Up to 16 more
 // entries are overwritten.
-void speckle(std::size_t cells, NoiseState state, int looks, float* variate);
+void speckle(std::size_t count, NoiseState state, int looks, SpeckleCells cells, float* variate);
 
 struct VideoInputs {
   const float* before;  // power of three successive sweeps (PowerWindow), `count` entries each
   const float* centre;
   const float* after;
-  const float* weights;      // weights of the three sweeps
-  float noise;               // power added to the weighted sum
-  const float* variate;      // speckle of each resolution cell; null: no speckle; 16 more entries are read
-  const std::int32_t* cell;  // resolution cell of sample i: that of sample i - 1, or 1 more; null: cell i
+  const float* weights;  // weights of the three sweeps
+  float noise;           // power added to the weighted sum
+  const float* variate;  // speckle of each sample; null: no speckle; 16 more entries are read
   float gain_db;
   float dynamic_range_db;
   const float* time_control = nullptr;  // factor on `noise` by sample; null: 1
 };
 
 // Azimuth smear, noise, speckle and log receiver: video = 255 (1 + (10 log10 power + gain_db) / dynamic_range_db),
-// clipped to [0, 255]. Exactly `count` entries of `video` are written. 16 more entries of `cell` are read.
+// clipped to [0, 255]. Exactly `count` entries of `video` are written.
 void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video);
 
 }  // namespace yars::model::physics::simd

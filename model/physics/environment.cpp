@@ -151,8 +151,8 @@ void Movers::add_echo(std::size_t number, const MovingPoint& point, const Sector
                                                  sight.elevation_rad);
   const double loss = gas_.two_way_transmission(earth, geometry.altitude.metres(), distance_m, height_m);
   const double power = returned_power(point.cross_section_m2, loss * gain, sight.slant_range_m);
-  echoes_.push_back(
-      {number, position, point.height_m, distance_m, offset_rad, received(receiver, power, sight.slant_range_m)});
+  echoes_.push_back({number, position, point.height_m, distance_m, sight.slant_range_m, offset_rad,
+                     received(receiver, power, sight.slant_range_m)});
 }
 
 namespace {

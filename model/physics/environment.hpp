@@ -68,6 +68,7 @@ struct Echo {
   geo::GeoPoint position;
   double above_ground_m = 0.0;
   double distance_m = 0.0;  // over ground
+  double slant_range_m = 0.0;
   double offset_rad = 0.0;  // azimuth from the middle of the beam, clockwise positive
   double power = 0.0;       // full scale = 1; includes antenna gain, gas attenuation and sensitivity time control
 };

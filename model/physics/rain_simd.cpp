@@ -11,9 +11,9 @@
 #ifndef YARS_MODEL_PHYSICS_RAIN_RUN
 #define YARS_MODEL_PHYSICS_RAIN_RUN
 namespace yars::model::physics::simd {
-// Samples [first, count) of a sweep, the showers on its ray, and the results.
+// Samples of a sweep, the showers on its ray, and the results.
 struct RainRun {
-  std::size_t first, count;
+  std::size_t count;
   std::span<const RainCrossing> crossings;
   float* power;
   float* transmission;
@@ -275,7 +275,7 @@ class RainVector {
 void rain(const RainConstants& input, radar::BeamPattern beam, const RainRun& run, const RainGround& ground) {
   const std::size_t lanes = hn::Lanes(RainTag());
   const RainConstants constants = input;
-  for (std::size_t i = run.first; i < run.count; i += lanes) {
+  for (std::size_t i = 0; i < run.count; i += lanes) {
     RainVector samples(constants, beam, ground, i);
     const float farthest_m = ground.distance_m[std::min(i + lanes, run.count) - 1];
     for (const RainCrossing& crossing : run.crossings)
@@ -386,7 +386,7 @@ simd::RainConstants RainSamples::constants(const SweepGeometry& geometry, const 
 }
 
 void RainSamples::measure(const SweepGeometry& geometry, const EffectiveEarth& earth, const Receiver& receiver,
-                          std::size_t first, const simd::RainGround& ground) {
+                          const simd::RainGround& ground) {
   const double octaves_per_db = std::log2(10.0) / 10.0;
   const double scale = receiver.azimuth_cell_rad * receiver.pulse_length_m / receiver.full_scale;
   crossings_.clear();
@@ -399,7 +399,7 @@ void RainSamples::measure(const SweepGeometry& geometry, const EffectiveEarth& e
                           static_cast<float>(2.0 * octaves_per_db * crossed.shower->attenuation_db_per_m)});
   }
   simd::measure_rain(constants(geometry, earth, receiver), beam_,
-                     {first, samples_, crossings_, power_.data(), transmission_.data()}, ground);
+                     {samples_, crossings_, power_.data(), transmission_.data()}, ground);
 }
 
 }  // namespace yars::model::physics

@@ -66,8 +66,8 @@ class RainSamples {
   void enter(const SweepGeometry& geometry);
   bool dry() const { return crossed_.empty(); }
 
-  // Computes power() and transmission() of the samples from `first` on. Gases do not attenuate power().
-  void measure(const SweepGeometry& geometry, const EffectiveEarth& earth, const Receiver& receiver, std::size_t first,
+  // Computes power() and transmission() of the samples. Gases do not attenuate power().
+  void measure(const SweepGeometry& geometry, const EffectiveEarth& earth, const Receiver& receiver,
                const simd::RainGround& ground);
   float* power() { return power_.data(); }                            // full scale = 1
   const float* transmission() const { return transmission_.data(); }  // (0, 1]

@@ -74,7 +74,10 @@ Receivers::Receivers(const RadarParameters& parameters)
   receiver_.noise = ratio(settings.noise_floor_db);
   receiver_.dynamic_range_db = settings.dynamic_range_db;
   receiver_.gain_step_db = settings.gain_step_db;
-  receiver_.looks = std::clamp(settings.looks, 1, kMaxLooks);
+  receiver_.looks = std::clamp(settings.looks, 0, kMaxLooks);
+  receiver_.wavelength_m = wavelength_m(settings.frequency_ghz);
+  receiver_.dwell_s = parameters.azimuth_beamwidth_deg / parameters.antenna.azimuth_rate_dps;
+  receiver_.sharpened_dwell_s = parameters.high_resolution.dwell_s;
 }
 
 // Extent of the pulse in range, c tau / 2: 150 m for 1 microsecond. `range`: the selected range.
@@ -102,6 +105,14 @@ Receiver Receivers::at(geo::Length range) const {
                                   illuminated_length_m(receiver, at_m, sin_grazing);
   receiver.full_scale = returned_power(cross_section_m2, 1.0, at_m);
   return receiver;
+}
+
+int looks_of(const Receiver& receiver, double width_rad, double dwell_s, geo::Speed ground_speed,
+             geo::Angle off_track) {
+  if (receiver.looks > 0) return receiver.looks;
+  const double spread_hz = 2.0 * ground_speed.metres_per_second() * width_rad *
+                           std::abs(std::sin(off_track.radians())) / receiver.wavelength_m;
+  return static_cast<int>(std::lround(std::clamp(spread_hz * dwell_s, 1.0, static_cast<double>(kMaxLooks))));
 }
 
 double illuminated_length_m(const Receiver& receiver, double slant_range_m, double sin_grazing) {

@@ -29,7 +29,10 @@ struct Receiver {
   bool automatic_gain = false;
   double dynamic_range_db = 0.0;  // black to white
   double gain_step_db = 0.0;
-  int looks = 1;  // 1..kMaxLooks, independent looks averaged in a sample
+  int looks = 0;  // 1..kMaxLooks, independent looks averaged in a sample; 0: by Doppler
+  double wavelength_m = 0.0;
+  double dwell_s = 0.0;            // of the scanning beam on a point: the beamwidth over the scan rate
+  double sharpened_dwell_s = 0.0;  // of Doppler beam sharpening
 };
 
 // c / 2 times 1 us: slant range per microsecond of echo delay, pulse length per microsecond of pulse duration.
@@ -57,6 +60,12 @@ class Receivers {
   std::vector<double> ranges_nm_, pulse_us_;
   Receiver receiver_;  // without the constants that depend on the range
 };
+
+// Number of independent looks, 1 to kMaxLooks, of a beam `width` wide in azimuth that dwells for `dwell_s`, at an angle
+// off the ground track. The ground's Doppler shifts spread over B = 2 V width sin(angle) / wavelength, so that the echo
+// changes B times a second. A configured number replaces it.
+// Source: Skolnik, "Introduction to Radar Systems", 3rd ed., 7.2: fluctuation of clutter seen from a moving platform.
+int looks_of(const Receiver& receiver, double width_rad, double dwell_s, geo::Speed ground_speed, geo::Angle off_track);
 
 // Length over level ground that returns at one time [m]: the smaller of the pulse-limited (c tau / 2) / cos psi and the
 // beam-limited R theta_el / sin psi. Grazing angle psi in [0, 90] degrees.

@@ -121,6 +121,13 @@ double EffectiveEarth::sag_m(double altitude_m, double distance_m, double height
          0.5 * (elevation_lift_m(altitude_m, distance_m, height_m) + grazing_lift_m(distance_m, height_m));
 }
 
+double EffectiveEarth::slant_range_m(double altitude_m, double distance_m, double height_m) const {
+  // Law of cosines in the triangle aircraft, centre of the earth, point.
+  const double half = std::isinf(radius_m_) ? 0.5 * distance_m : radius_m_ * std::sin(0.5 * distance_m / radius_m_);
+  const double stretch = (1.0 + altitude_m / radius_m_) * (1.0 + height_m / radius_m_);
+  return std::sqrt((altitude_m - height_m) * (altitude_m - height_m) + 4.0 * stretch * half * half);
+}
+
 double EffectiveEarth::distance_at_slant_range(double altitude_m, double height_m, double slant_range_m) const {
   const double above_m = altitude_m - height_m;
   const double square = slant_range_m * slant_range_m - above_m * above_m;
@@ -153,16 +160,9 @@ double arc_per_plane(double plane_square_m2, double radius_of_curvature_m) {
   return 1.0 + u * (1.0 / 6.0 + u * (3.0 / 40.0 + u * (15.0 / 336.0 + u * (105.0 / 3456.0))));
 }
 
-void sample_distances(const GeometryParameters& parameters, const EffectiveEarth& earth, const SweepGeometry& geometry,
-                      const terrain::TerrainView& terrain, std::span<double> distance_m) {
-  const double spacing_m = geometry.range.metres() / static_cast<double>(distance_m.size());
+void sample_distances(geo::Length range, std::span<double> distance_m) {
+  const double spacing_m = range.metres() / static_cast<double>(distance_m.size());
   for (std::size_t i = 0; i < distance_m.size(); ++i) distance_m[i] = (static_cast<double>(i) + 0.5) * spacing_m;
-  if (!parameters.slant_range) return;
-  const double below_m = terrain.elevation_m(geometry.apex);
-  const double ground_m = std::isfinite(below_m) ? below_m : 0.0;
-  for (double& distance : distance_m) {
-    distance = earth.distance_at_slant_range(geometry.altitude.metres(), ground_m, distance);
-  }
 }
 
 }  // namespace yars::model::physics

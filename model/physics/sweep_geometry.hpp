@@ -77,6 +77,7 @@ struct PowerWindow {
   std::span<const float> after;
   double jamming = 0.0;  // power received by the centre sweep at every range; full scale = 1
   double automatic_gain_db = 0.0;
+  int looks = 1;  // independent looks averaged in each sample: Receiver::looks_of()
 };
 
 // Weights of the azimuth smear over three sweeps. The sum is 1, which conserves power. Source: the 1996 report.
@@ -116,6 +117,8 @@ class EffectiveEarth {
   Sight sight(double altitude_m, double distance_m, double height_m) const;
   // Sight::tangent alone.
   double tangent(double altitude_m, double distance_m, double height_m) const;
+  // Sight::slant_range_m alone.
+  double slant_range_m(double altitude_m, double distance_m, double height_m) const;
   // Distance over ground at which ground of this height has this slant range; NaN if there is none.
   double distance_at_slant_range(double altitude_m, double height_m, double slant_range_m) const;
   // Lift of a point in elevation, and of its grazing angle [m].
@@ -146,10 +149,8 @@ inline EffectiveEarth effective_earth(const GeometryParameters& parameters, cons
 // / x, where x is the square root of `plane_square_m2` / radius of curvature. Series, within 3 m as far as 1,000 NM.
 double arc_per_plane(double plane_square_m2, double radius_of_curvature_m);
 
-// Distance over ground of each sample's centre [m], ascending: evenly spaced in ground range, or in slant range.
-// For slant range, level ground is assumed, at the ground elevation below the aircraft (0 if unknown). Samples at a
-// slant range too short to meet that ground are NaN.
-void sample_distances(const GeometryParameters& parameters, const EffectiveEarth& earth, const SweepGeometry& geometry,
-                      const terrain::TerrainView& terrain, std::span<double> distance_m);
+// Range of each sample's centre [m], ascending at equal steps. `standard` and `reference` compute the ground at equal
+// steps of ground range; SlantAxis moves it to equal steps of slant range.
+void sample_distances(geo::Length range, std::span<double> distance_m);
 
 }  // namespace yars::model::physics

@@ -52,6 +52,14 @@ double Beam::automatic_gain_db(const physics::SweepGeometry& geometry) {
   return physics::automatic_gain_db(receiver_, pattern_, geometry.altitude, geometry.elevation);
 }
 
+int Beam::looks(const physics::SweepGeometry& geometry, geo::Speed ground_speed, geo::Bearing ground_track) {
+  if (receiver_.range_m != geometry.range.metres()) receiver_ = receivers_.at(geometry.range);
+  const std::optional<physics::AzimuthInterval>& cell = geometry.sharpened_cell;
+  const double width_rad = cell ? cell->right_rad - cell->left_rad : receiver_.azimuth_beamwidth_rad;
+  return physics::looks_of(receiver_, width_rad, cell ? receiver_.sharpened_dwell_s : receiver_.dwell_s, ground_speed,
+                           geometry.azimuth - ground_track);
+}
+
 void Beam::begin_pass() {
   for (Ray& ray : rays_) ray.current = false;
   measured_ = 0;

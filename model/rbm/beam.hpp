@@ -62,6 +62,8 @@ class Beam {
   void lit(std::span<std::uint8_t> mask) const;
   // PowerWindow::automatic_gain_db of a sweep with returns of ground.
   double automatic_gain_db(const physics::SweepGeometry& geometry);
+  // PowerWindow::looks of a sweep.
+  int looks(const physics::SweepGeometry& geometry, geo::Speed ground_speed, geo::Bearing ground_track);
   // As Algorithm::form_video().
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                   std::span<std::uint8_t> video) {

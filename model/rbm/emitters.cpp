@@ -196,8 +196,7 @@ Beacons::Beacons(const physics::RadarParameters& parameters)
       geometry_parameters_(parameters.geometry),
       receivers_(parameters),
       answering_(std::make_shared<const std::vector<radar::Beacon>>(answering(parameters.world.beacons))),
-      sights_(parameters, emitters_of(*answering_)),
-      distance_m_(parameters.samples) {
+      sights_(parameters, emitters_of(*answering_)) {
   replies_.reserve(answering_->size() * radar::kMaxReplies);
 }
 
@@ -243,15 +242,13 @@ void Beacons::measure(const physics::SweepGeometry& geometry, const terrain::Ter
   std::fill(power.begin(), power.end(), 0.0F);
   const std::span<const Reply> arrived = replies(geometry, terrain);
   if (arrived.empty()) return;
-  const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry);
-  physics::sample_distances(geometry_parameters_, earth, geometry, terrain, distance_m_);
   const double spacing_m = geometry.range.metres() / static_cast<double>(power.size());
   // A reply is drawn in one sample at least.
   const double pulse_samples = std::max(1.0, receivers_.pulse_length(geometry.range).metres() / spacing_m);
   for (const Reply& reply : arrived) {
-    const std::size_t middle = physics::nearest_sample(distance_m_, reply.distance_m);
     const double displayed_range_m = geometry_parameters_.slant_range ? reply.slant_range_m : reply.distance_m;
-    if (!(displayed_range_m < geometry.range.metres()) || middle >= power.size()) continue;
+    if (!(displayed_range_m < geometry.range.metres())) continue;
+    const auto middle = std::min(static_cast<std::size_t>(displayed_range_m / spacing_m), power.size() - 1);
     const auto reach = static_cast<std::size_t>(std::ceil(0.5 * pulse_samples));
     const std::size_t end = std::min(middle + reach + 1, power.size());
     for (std::size_t i = middle - std::min(middle, reach); i < end; ++i) {

@@ -139,7 +139,6 @@ class Beacons {
   std::shared_ptr<const std::vector<radar::Beacon>> answering_;  // beacons with the radar's beacon code
   EmitterSights sights_;
   std::vector<Reply> replies_;
-  std::vector<double> distance_m_;  // distance of each sample over ground
 };
 
 }  // namespace yars::model::rbm

@@ -144,7 +144,8 @@ void PointReturn::add_movers(const Sweep& sweep) {
     if (echo.power <= sweep.negligible) continue;
     if (!mover_sights_.clear(echo.number, echo.position, echo.above_ground_m, terrain)) continue;
     // A mover nearer than the first sample on the ground is added to that sample.
-    put(*rays_[rays_at(echo.offset_rad).nearest()].ground, physics::nearest_sample(distance_m_, echo.distance_m),
+    const double shown_m = parameters_.slant_range ? echo.slant_range_m : echo.distance_m;
+    put(*rays_[rays_at(echo.offset_rad).nearest()].ground, physics::nearest_sample(distance_m_, shown_m),
         sweep.point_smear_gain * echo.power);
   }
 }
@@ -227,10 +228,14 @@ PointReturn::Echo PointReturn::find(const Sweep& sweep, const SceneRay::InScene&
   // Length of the arc over the chord, to the third order.
   echo.distance_m = std::sqrt(chord2) * (1.0 + chord2 / (24.0 * radius_m * radius_m));
   echo.per_metre = 1.0 / echo.distance_m;
-  echo.tangent =
-      physics::effective_earth(parameters_, sweep.geometry.apex, sweep.geometry.altitude, azimuth)
-          .tangent(sweep.geometry.altitude.metres(), echo.distance_m, static_cast<double>(scatterer.middle_msl_m));
+  const auto middle_m = static_cast<double>(scatterer.middle_msl_m);
+  const physics::EffectiveEarth earth =
+      physics::effective_earth(parameters_, sweep.geometry.apex, sweep.geometry.altitude, azimuth);
+  echo.tangent = earth.tangent(sweep.geometry.altitude.metres(), echo.distance_m, middle_m);
   echo.nearer = physics::samples_nearer(distance_m_, echo.distance_m);
+  echo.shown_m = parameters_.slant_range
+                     ? earth.slant_range_m(sweep.geometry.altitude.metres(), echo.distance_m, middle_m)
+                     : echo.distance_m;
   echo.power = -1.0;
   return echo;
 }
@@ -294,10 +299,10 @@ void PointReturn::put(const RayGround& ground, std::size_t sample, double power)
   end_ = std::max(end_, sample + 1);
 }
 
-// Distributes power evenly over the interval of length `extent_m` about the echo's distance. Each sample gets the part
+// Distributes power evenly over the interval of length `extent_m` about the echo's range. Each sample gets the part
 // of the interval that is nearer to its centre than to the centre of any other sample.
 void PointReturn::spread(const RayGround& ground, const Echo& echo, double extent_m, double power) {
-  const double from_m = echo.distance_m - 0.5 * extent_m, to_m = echo.distance_m + 0.5 * extent_m;
+  const double from_m = echo.shown_m - 0.5 * extent_m, to_m = echo.shown_m + 0.5 * extent_m;
   const std::size_t first = physics::nearest_sample(distance_m_, from_m, echo.nearer);
   const std::size_t last = std::min(physics::nearest_sample(distance_m_, to_m, echo.nearer), distance_m_.size() - 1);
   if (first >= last) return put(ground, first, power);

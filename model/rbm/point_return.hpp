@@ -51,6 +51,7 @@ class PointReturn {
     std::uint64_t key = 0;     // number of the view (view_) and of the scatterer; 0: none
     double azimuth_rad = 0.0;  // true azimuth at the apex, in (-pi, pi]
     double distance_m = 0.0;   // over ground
+    double shown_m = 0.0;      // range at which it is drawn: over ground, or with `slantRange` the slant range
     double per_metre = 0.0;    // 1 / distance_m
     double tangent = 0.0;      // of the elevation angle of the scatterer's middle
     std::size_t nearer = 0;    // about how many samples are nearer

@@ -32,6 +32,8 @@ Reference::Reference(const physics::RadarParameters& parameters)
       scene_covers_(parameters, sample_count(parameters)),
       samples_(sample_count(parameters)),
       bins_(kBinsOfCell * samples_.size()),
+      slant_m_(bins_.size()),
+      moved_bins_(bins_.size()),
       distance_m_(samples_.size()) {
   weights_.reserve((2 * samples_.size() + 1) * kBinsOfCell);  // for any range scale
 }
@@ -46,30 +48,29 @@ std::size_t Reference::measure(const physics::SweepGeometry& geometry, const phy
   const terrain::TerrainView& terrain = environment.terrain;
   const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry);
   const physics::Receiver receiver = receivers_.at(geometry.range);
-  physics::sample_distances(geometry_parameters_, earth, geometry, terrain, distance_m_);
+  physics::sample_distances(geometry.range, distance_m_);
   const std::size_t pending = read_terrain(geometry, terrain);
   const double spacing_m = geometry.range.metres() / static_cast<double>(samples_.size());
   surface_.use_resolution(receiver.pulse_length_m, spacing_m);
   walk_ground(geometry, receiver, physics::GroundWalk(geometry, earth, terrain, fidelity_.interpolation));
+  if (fidelity_.slant_range) average_slant_ranges(geometry, earth);
   if (scene_covers_.enter(geometry, environment.scenes)) add_covers(geometry, *environment.scenes);
   rain_.enter(geometry);
   if (!rain_.dry()) add_rain(receiver, earth, geometry);
+  if (fidelity_.slant_range) move_to_slant_range(geometry, earth);
   smear_pulse(fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 0.0, power);
   return pending;
 }
 
 std::size_t Reference::read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  // Altitude hole: a sample at a slant range below the aircraft's height above ground has no ground point.
-  constexpr terrain::Surface kHole{std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
   const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
   std::size_t pending = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     Sample& sample = samples_[i];
     sample = Sample{};
     sample.distance_m = distance_m_[i];
-    const bool hole = std::isnan(sample.distance_m);
-    const auto located = ray.position_and_azimuth(geo::Length::metres(hole ? 0.0 : sample.distance_m));
-    const terrain::Surface surface = hole ? kHole : terrain.surface_at(located.point, fidelity_.interpolation);
+    const auto located = ray.position_and_azimuth(geo::Length::metres(sample.distance_m));
+    const terrain::Surface surface = terrain.surface_at(located.point, fidelity_.interpolation);
     sample.position = located.point;
     sample.azimuth = located.azimuth;
     sample.height_m = surface.elevation_m;
@@ -83,13 +84,8 @@ std::size_t Reference::read_terrain(const physics::SweepGeometry& geometry, cons
 
 // Ground between the middles of two samples belongs to the nearer middle.
 Reference::Cell Reference::cell_of(std::size_t number) const {
-  const auto known = [&](std::size_t at) { return at < samples_.size() && !std::isnan(distance_m_[at]); };
-  const double middle_m = distance_m_[number];
-  const double half_m = known(number + 1) ? 0.5 * (distance_m_[number + 1] - middle_m)
-                                          : 0.5 * (middle_m - (number > 0 ? distance_m_[number - 1] : 0.0));
-  const double from_m =
-      number > 0 && known(number - 1) ? 0.5 * (distance_m_[number - 1] + middle_m) : std::max(0.0, middle_m - half_m);
-  return {number, from_m, middle_m + half_m, 1.0};
+  const double half_m = distance_m_.front();
+  return {number, distance_m_[number] - half_m, distance_m_[number] + half_m, 1.0};
 }
 
 // All ground raises the horizon, also between samples and outside the beam. A void neither raises the horizon nor
@@ -102,15 +98,12 @@ void Reference::walk_ground(const physics::SweepGeometry& geometry, const physic
   const physics::EffectiveEarth& earth = walk.earth();
   const double altitude_m = geometry.altitude.metres();
   std::fill(bins_.begin(), bins_.end(), 0.0);
+  std::fill(slant_m_.begin(), slant_m_.end(), 0.0);
   // The ground below the aircraft is seen straight downwards.
   Front front{0.0, walk.below().elevation_m, kNone, kNone};
   if (std::isnan(front.height_m)) front.tangent = front.height_m;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     Sample& sample = samples_[i];
-    if (std::isnan(sample.distance_m)) {
-      sample.horizon = kNone;
-      continue;
-    }
     Cell cell = cell_of(i);
     const double height_m = std::isnan(sample.height_m) ? 0.0 : sample.height_m;
     cell.gas = gas_.two_way_transmission(earth, altitude_m, sample.distance_m, height_m);
@@ -169,7 +162,9 @@ void Reference::add_ground(const physics::SweepGeometry& geometry, const physics
       physics::received(receiver, physics::returned_power(cells, cell.gas * gain, range_m), range_m);
   const double bin = kBins * (distance_m - cell.from_m) / (cell.to_m - cell.from_m);
   const auto number = static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0));
-  bins_[cell.number * kBinsOfCell + number] += kBins * power_per_m2 * (ground.gamma * normal_m2 + sea_m2);
+  const double power = kBins * power_per_m2 * (ground.gamma * normal_m2 + sea_m2);
+  bins_[cell.number * kBinsOfCell + number] += power;
+  slant_m_[cell.number * kBinsOfCell + number] += power * range_m;
   samples_[cell.number].power_per_gamma += power_per_m2 * normal_m2;
 }
 
@@ -195,7 +190,6 @@ void Reference::add_rain(const physics::Receiver& receiver, const physics::Effec
   const double altitude_m = geometry.altitude.metres();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     Sample& sample = samples_[i];
-    if (std::isnan(sample.distance_m)) continue;
     // Over a void the ray ends at sea level.
     const double height_m = std::isnan(sample.height_m) ? 0.0 : sample.height_m;
     const double slant_range_m = earth.sight(altitude_m, sample.distance_m, height_m).slant_range_m;
@@ -210,6 +204,46 @@ void Reference::add_rain(const physics::Receiver& receiver, const physics::Effec
       power = (power + echo) * loss;
     }
   }
+}
+
+// Turns the sums of slant range times power into means. A bin without return has the slant range of level ground.
+void Reference::average_slant_ranges(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth) {
+  const double cell_m = 2.0 * distance_m_.front();
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const double height_m = std::isnan(samples_[i].height_m) ? 0.0 : samples_[i].height_m;
+    for (std::size_t bin = 0; bin < kBinsOfCell; ++bin) {
+      const std::size_t at = i * kBinsOfCell + bin;
+      const double distance_m = cell_m * (static_cast<double>(at) + 0.5) / kBins;
+      slant_m_[at] = bins_[at] > 0.0 ? slant_m_[at] / bins_[at]
+                                     : earth.slant_range_m(geometry.altitude.metres(), distance_m, height_m);
+    }
+  }
+}
+
+// Moves the bins from ground range to slant range. The pulse covers more ground the more its extent in slant range is
+// below that over ground, so the power is multiplied by their ratio on level ground. The echo of a bin is shared by the
+// two bins of slant range beside it.
+void Reference::move_to_slant_range(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth) {
+  const double altitude_m = geometry.altitude.metres();
+  const double bin_m = 2.0 * distance_m_.front() / kBins;
+  std::vector<double>& moved = moved_bins_;
+  std::fill(moved.begin(), moved.end(), 0.0);
+  for (std::size_t at = 0; at < bins_.size(); ++at) {
+    if (bins_[at] == 0.0) continue;
+    const Sample& sample = samples_[at / kBinsOfCell];
+    const double height_m = std::isnan(sample.height_m) ? 0.0 : sample.height_m;
+    const double from_m = bin_m * static_cast<double>(at);
+    const double extent_m =
+        earth.slant_range_m(altitude_m, from_m + bin_m, height_m) - earth.slant_range_m(altitude_m, from_m, height_m);
+    const double echo = bins_[at] * extent_m / bin_m;
+    const double to = std::max(0.0, slant_m_[at] / bin_m - 0.5);
+    if (!(to < static_cast<double>(bins_.size()))) continue;
+    const auto near = static_cast<std::size_t>(to);
+    const double beyond = to - static_cast<double>(near);
+    moved[near] += (1.0 - beyond) * echo;
+    if (near + 1 < moved.size()) moved[near + 1] += beyond * echo;
+  }
+  bins_.swap(moved);
 }
 
 void Reference::smear_pulse(double pulse_samples, std::span<float> power) {
@@ -253,7 +287,7 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
   const physics::Receiver receiver = receivers_.at(range);
   const physics::NoiseState state = physics::make_noise_state(key);
   const double spacing_m = range.metres() / static_cast<double>(video.size());
-  const float cells = physics::cells_per_sample(spacing_m, receiver.pulse_length_m);
+  const physics::SpeckleCells cells = physics::speckle_cells(spacing_m, receiver.pulse_length_m, state);
   const double gain_db = (gain - physics::kFullGain) * receiver.gain_step_db + window.automatic_gain_db;
   for (std::size_t i = 0; i < video.size(); ++i) {
     double power = static_cast<double>(window.centre[i]);
@@ -266,7 +300,7 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
     const double range_m = (static_cast<double>(i) + 0.5) * spacing_m;
     double total = power + physics::time_control(receiver, range_m) * (receiver.noise + window.jamming);
     if (fidelity_.noise) {
-      total *= speckle(state, physics::resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
+      total *= speckle(state, physics::cell_of(static_cast<std::uint32_t>(i), cells), window.looks);
     }
     const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.dynamic_range_db;
     video[i] = static_cast<std::uint8_t>(std::lround(std::clamp(255.0 * level, 0.0, 255.0)));

@@ -33,7 +33,7 @@ class Reference : public Algorithm {
 
   // Intermediate results of the last measure() for one sample; read by tests.
   struct Sample {
-    double distance_m = 0.0;  // over ground; NaN: the slant range is too short to meet the ground
+    double distance_m = 0.0;  // over ground
     geo::GeoPoint position;
     geo::Bearing azimuth;       // direction of the ray at the position
     double height_m = 0.0;      // [m MSL] ground that returns power; NaN: void
@@ -75,6 +75,8 @@ class Reference : public Algorithm {
   void add_covers(const physics::SweepGeometry& geometry, const scene::SceneView& scenes);
   void add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
                 const physics::SweepGeometry& geometry);
+  void average_slant_ranges(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth);
+  void move_to_slant_range(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth);
   void smear_pulse(double pulse_samples, std::span<float> power);
 
   radar::Fidelity fidelity_;
@@ -85,7 +87,9 @@ class Reference : public Algorithm {
   physics::GasPath gas_;
   SceneCovers scene_covers_;
   std::vector<Sample> samples_;
-  std::vector<double> bins_;     // power, kBinsOfCell of each sample, in the unit of Sample::power
+  std::vector<double> bins_;  // power, kBinsOfCell of each sample, in the unit of Sample::power
+  // Mean slant range of the return of each bin [m], and bins by slant range.
+  std::vector<double> slant_m_, moved_bins_;
   std::vector<double> weights_;  // of the pulse smear
   std::vector<double> distance_m_;
 };

@@ -35,6 +35,7 @@ Standard::Standard(const physics::RadarParameters& parameters)
       gas_(parameters),
       gas_samples_(parameters, sample_count(parameters)),
       scene_covers_(parameters, sample_count(parameters)),
+      slant_axis_(sample_count(parameters)),
       count_(sample_count(parameters)),
       max_straight_m_(max_straight_m(count_)),
       distance_m_(count_),
@@ -57,8 +58,7 @@ Standard::Standard(const physics::RadarParameters& parameters)
       power_(count_, 0.0F),
       power_per_gamma_(count_, 0.0F),
       variate_(count_, 1.0F),
-      time_control_(count_, 1.0F),
-      cell_(count_ + terrain::kRunSlack) {}
+      time_control_(count_, 1.0F) {}
 
 void Standard::use_weather(const physics::RadarParameters& parameters) {
   ground_.use_sea(parameters);
@@ -70,7 +70,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const terrain::TerrainView& terrain = environment.terrain;
   const physics::EffectiveEarth earth = physics::effective_earth(geometry_parameters_, geometry);
   const physics::Receiver& receiver = receiver_at(geometry.range);
-  update_distances(geometry, earth, terrain);
+  update_distances(geometry.range);
   const std::size_t pending = read_terrain(geometry, terrain);
 
   const simd::SweepConstants constants = sweep_constants(geometry, earth, receiver);
@@ -99,6 +99,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   if (covers) add_covers(geometry, *environment.scenes);
   rain_.enter(geometry);
   if (!rain_.dry()) add_rain(geometry, earth, receiver);
+  if (fidelity_.slant_range) slant_axis_.move(geometry, earth, elevation_.first(count_), power_.first(count_));
 
   if (pulse_samples != smeared_samples_) {
     smeared_samples_ = pulse_samples;
@@ -119,15 +120,14 @@ void Standard::lit(std::span<std::uint8_t> mask) const {
 
 physics::GasSamples::Coefficients Standard::gas_loss(const physics::SweepGeometry& geometry) {
   if (gas_.none()) return {};
-  gas_samples_.use(gas_, geometry.altitude.metres(), geometry.range.metres(), distance_.first(count_),
-                   !fidelity_.slant_range);
+  gas_samples_.use(gas_, geometry.altitude.metres(), geometry.range.metres(), distance_.first(count_));
   return gas_samples_.coefficients();
 }
 
 void Standard::add_covers(const physics::SweepGeometry& geometry, const scene::SceneView& scenes) {
   SceneCovers::Ground& ground = scene_covers_.ground();
   for (std::size_t i = 0; i < count_; ++i) {
-    ground.distance_m[i] = i < holes_ ? std::numeric_limits<double>::quiet_NaN() : distance_m_[i];
+    ground.distance_m[i] = distance_m_[i];
     ground.power[i] = static_cast<double>(power_.data()[i]);
     ground.power_per_gamma[i] = static_cast<double>(power_per_gamma_.data()[i]);
   }
@@ -138,7 +138,7 @@ void Standard::add_covers(const physics::SweepGeometry& geometry, const scene::S
 // True if no ground between the previous sample and this one stands out. There point targets are shaded by a
 // straight line between the peaks at both samples. `peak_m`: elevation of the ground that casts the shadow.
 bool Standard::is_straight(std::size_t i, const float* peak_m) const {
-  if (!has_crests_ || i <= holes_) return false;
+  if (!has_crests_ || i == 0) return false;
   const float limit = std::max(horizon_.data()[i - 1], tangent_.data()[i] + kMaxCrest_m / distance_.data()[i]);
   const bool known = peak_m[i - 1] == peak_m[i - 1] && peak_m[i] == peak_m[i];
   return known && distance_.data()[i] - distance_.data()[i - 1] <= max_straight_m_ &&
@@ -148,7 +148,6 @@ bool Standard::is_straight(std::size_t i, const float* peak_m) const {
 void Standard::describe(RayGround& ground) const {
   const float* const peak_m = has_peaks_ ? peak_.data() : elevation_.data();
   std::copy_n(distance_m_.begin(), count_, ground.distance_m.begin());
-  std::fill_n(ground.distance_m.begin(), holes_, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < count_; ++i) {
     const float slope = is_straight(i, peak_m) ? (peak_m[i] - peak_m[i - 1]) * one_step_inverse_.data()[i - 1] : kVoid;
     ground.samples[i] = {static_cast<double>(horizon_.data()[i]), static_cast<double>(peak_m[i]),
@@ -161,11 +160,11 @@ void Standard::describe(RayGround& ground) const {
 // Adds rain echo and applies rain attenuation.
 void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
-  rain_.measure(geometry, earth, receiver, holes_, {distance_.data(), elevation_.data(), horizon_.data()});
+  rain_.measure(geometry, earth, receiver, {distance_.data(), elevation_.data(), horizon_.data()});
   if (!gas_.none()) gas_samples_.apply(elevation_.data(), rain_.power());
   const float* const rain = rain_.power();
   const float* const loss = rain_.transmission();
-  for (std::size_t i = holes_; i < count_; ++i) power_.data()[i] = (power_.data()[i] + rain[i]) * loss[i];
+  for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = (power_.data()[i] + rain[i]) * loss[i];
 }
 
 const physics::Receiver& Standard::receiver_at(geo::Length range) {
@@ -173,18 +172,11 @@ const physics::Receiver& Standard::receiver_at(geo::Length range) {
   return receiver_;
 }
 
-// Updates the ground distances of the samples and what depends on them alone. At equal steps of ground range the
-// distances change with the selected range only. At equal steps of slant range they are recomputed for each sweep.
-void Standard::update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
-                                const terrain::TerrainView& terrain) {
-  const bool slant = fidelity_.slant_range;
-  if (!slant && spaced_range_m_ == geometry.range.metres()) return;
-  spaced_range_m_ = geometry.range.metres();
-  physics::sample_distances(geometry_parameters_, earth, geometry, terrain, distance_m_);
-  // Altitude hole: no ground is at slant ranges below the aircraft's height above ground. Samples at these ranges get
-  // distance 0 here; read_terrain() makes them voids.
-  holes_ = 0;
-  while (holes_ < count_ && std::isnan(distance_m_[holes_])) distance_m_[holes_++] = 0.0;
+// Updates the ground distances of the samples and what depends on them alone.
+void Standard::update_distances(geo::Length range) {
+  if (spaced_range_m_ == range.metres()) return;
+  spaced_range_m_ = range.metres();
+  physics::sample_distances(range, distance_m_);
   for (std::size_t i = 0; i < count_; ++i) distance_.data()[i] = static_cast<float>(distance_m_[i]);
   const auto inverse = [](double step_m) { return step_m > 0.0 ? static_cast<float>(1.0 / step_m) : 0.0F; };
   for (std::size_t i = 0; i + 1 < count_; ++i) {
@@ -194,9 +186,9 @@ void Standard::update_distances(const physics::SweepGeometry& geometry, const ph
   // Over level ground at the height h below the aircraft the tangent rises by h (far - near) / (near far) from one edge
   // of a cell to the other. In the middle d it rises by h / d^2 per metre. The first cell and the last one have one
   // edge.
-  for (std::size_t i = holes_; i < count_; ++i) {
+  for (std::size_t i = 0; i < count_; ++i) {
     const double middle_m = distance_m_[i];
-    const bool has_near = i > holes_, has_far = i + 1 < count_;
+    const bool has_near = i > 0, has_far = i + 1 < count_;
     const double near_m = has_near ? 0.5 * (distance_m_[i - 1] + middle_m) : middle_m;
     const double far_m = has_far ? 0.5 * (middle_m + distance_m_[i + 1]) : middle_m;
     const double halves = has_near == has_far ? 1.0 : 2.0;
@@ -215,12 +207,10 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const
                                   water_.first(count_),
                                   peak_.first(has_peaks_ ? count_ : 0),
                                   {ground_.materials().data(), terrain.has_materials() ? count_ : 0},
-                                  {step_m, near_.first(fidelity_.slant_range ? 0 : count_), near_back_.first(count_)}};
+                                  {step_m, near_.first(count_), near_back_.first(count_)}};
   const std::size_t pending = terrain.surfaces(positions_.run(), fidelity_.interpolation, found);
-  for (Padded* heights : {&elevation_, &peak_, &near_}) {
-    std::fill_n(heights->data(), holes_, kVoid);
+  for (Padded* heights : {&elevation_, &peak_, &near_})
     std::fill_n(heights->data() + count_, terrain::kRunSlack, kVoid);
-  }
   return pending;
 }
 
@@ -250,14 +240,6 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   c.gaussian = static_cast<float>(physics::kTwoWayExponent * std::numbers::log2e / (beam_rad * beam_rad));
   c.sin_half_beam = static_cast<float>(std::sin(0.5 * beam_rad));
   return c;
-}
-
-// Updates the index of each sample's resolution cell. The indices change with the selected range only.
-void Standard::use_cells(float cells_per_sample) {
-  if (cells_per_sample == cells_per_sample_) return;
-  cells_per_sample_ = cells_per_sample;
-  for (std::size_t i = 0; i < count_; ++i)
-    cell_[i] = static_cast<std::int32_t>(physics::resolution_cell(static_cast<std::uint32_t>(i), cells_per_sample));
 }
 
 // Sensitivity time control of thermal noise and jamming, by sample.
@@ -291,11 +273,12 @@ void Standard::form_video(const physics::PowerWindow& window, geo::Length range,
   inputs.gain_db = static_cast<float>((gain - physics::kFullGain) * receiver.gain_step_db + window.automatic_gain_db);
   inputs.dynamic_range_db = static_cast<float>(receiver.dynamic_range_db);
   if (fidelity.noise) {
-    use_cells(physics::cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m));
-    physics::simd::speckle(static_cast<std::size_t>(cell_[count - 1]) + 1, physics::make_noise_state(key),
-                           receiver.looks, variate_.data());
+    const physics::NoiseState state = physics::make_noise_state(key);
+    physics::simd::speckle(
+        count, state, window.looks,
+        physics::speckle_cells(range.metres() / static_cast<double>(count), receiver.pulse_length_m, state),
+        variate_.data());
     inputs.variate = variate_.data();
-    if (cells_per_sample_ < 1.0F) inputs.cell = cell_.data();
   }
   physics::simd::form_video(count, inputs, video.data());
 }

@@ -23,6 +23,7 @@
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/line_of_sight.hpp"
 #include "model/rbm/scene_ray.hpp"
+#include "model/rbm/slant_axis.hpp"
 #include "model/rbm/sweep_simd.hpp"
 
 namespace yars::model::rbm {
@@ -50,8 +51,7 @@ class Standard : public Algorithm {
     memory::CacheAlignedVector<float> values;
   };
 
-  void update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
-                        const terrain::TerrainView& terrain);
+  void update_distances(geo::Length range);
   std::size_t read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
   void add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                 const physics::Receiver& receiver);
@@ -63,7 +63,6 @@ class Standard : public Algorithm {
 
   const physics::Receiver& receiver_at(geo::Length range);
   const float* time_control(const physics::Receiver& receiver);
-  void use_cells(float cells_per_sample);
 
   radar::Fidelity fidelity_;
   physics::GeometryParameters geometry_parameters_;
@@ -73,17 +72,16 @@ class Standard : public Algorithm {
   physics::GasPath gas_;
   physics::GasSamples gas_samples_;
   SceneCovers scene_covers_;
+  SlantAxis slant_axis_;
   physics::Receiver receiver_;  // result of the last receiver_at()
   std::size_t count_;
-  float max_straight_m_;     // distance between samples up to which ground may be straight for point targets
-  std::size_t holes_ = 0;    // number of samples nearest the aircraft with a slant range too short to meet the ground
-  bool has_crests_ = false;  // crest_ is that of the sweep
-  bool has_peaks_ = false;   // peak_ is that of the sweep
+  float max_straight_m_;             // distance between samples up to which ground may be straight for point targets
+  bool has_crests_ = false;          // crest_ is that of the sweep
+  bool has_peaks_ = false;           // peak_ is that of the sweep
   double spaced_range_m_ = 0.0;      // [m] range for which distance_m_ was computed; 0: none
   double controlled_range_m_ = 0.0;  // range for which time_control_ was computed; 0: none
   double smeared_samples_ = -1.0;    // pulse length [samples] of smear_weights_; -1: none
   std::ptrdiff_t smear_reach_ = 0;   // [samples] smear_weights_ has offsets -smear_reach_ to smear_reach_
-  float cells_per_sample_ = 0.0F;    // value for which cell_ was computed; 0: none
   std::array<float, 2 * physics::PulseSmear::kMaxRadius + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, midway_weight_, cell_inverse_;
@@ -93,7 +91,6 @@ class Standard : public Algorithm {
   Padded elevation_, water_, peak_, near_, near_back_, crest_;
   Padded tangent_, near_tangent_, before_, horizon_;
   Padded power_, power_per_gamma_, variate_, time_control_;
-  memory::CacheAlignedVector<std::int32_t> cell_;  // resolution cell of each sample
 };
 
 }  // namespace yars::model::rbm

@@ -105,6 +105,7 @@ class Radar(Held):
         time_s: float = ...,  # [s] 0 to 576460752: sim time of the first sweep, for moving targets
         threads: int = ...,  # 1 to 256: number of threads
         seed: int | None = ...,  # seed of the noise; left out: the configuration's
+        speed_kt: float = ...,  # [kt] 0 to 10000: speed over ground, for the number of looks beside the track
         # end: ScanRequest
     ) -> Scan: ...
     def patch(

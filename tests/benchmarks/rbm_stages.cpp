@@ -38,12 +38,11 @@ class Stages {
         video_(count_),
         positions_(count_),
         ground_(configuration_, count_) {
-    cell_.resize(count_ + 16);
     for (auto& array : arrays_) array.assign(count_ + 2 * rbm::simd::kPad, 0.0F);
     for (const int padded : {kTangent, kBefore, kHorizon, kCrest, kNearTangent})
       arrays_[padded].assign(arrays_[padded].size(), rbm::simd::kNoHorizon);
     receiver_ = physics::Receivers(configuration_).at(request.range);
-    const double spacing_m = request.range.metres() / samples;
+    const double spacing_m = spacing_m_ = request.range.metres() / samples;
     for (std::size_t i = 0; i < count_; ++i) {
       at(kDistance)[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);
       at(kMidwayWeight)[i] = 0.5F;
@@ -59,9 +58,6 @@ class Stages {
     constants_.sin_centre = 0.05F;
     constants_.gaussian = 4000.0F;
     smear_ = physics::make_pulse_smear(receiver_.pulse_length_m / spacing_m);
-    const float cells = physics::cells_per_sample(spacing_m, receiver_.pulse_length_m);
-    for (std::size_t i = 0; i < count_; ++i)
-      cell_[i] = static_cast<std::int32_t>(physics::resolution_cell(static_cast<std::uint32_t>(i), cells));
   }
 
   void print() {
@@ -103,12 +99,13 @@ class Stages {
     stage("smear", {kPower}, {kSmeared},
           [&](int) { rbm::simd::smear(count_, at(kPower), weights.data(), smear_.reach, at(kSmeared)); });
     stage("speckle", {}, {kVariate}, [&](int sweep) {
-      physics::simd::speckle(static_cast<std::size_t>(cell_[count_ - 1]) + 1,
-                             physics::make_noise_state({1, 1, static_cast<std::uint32_t>(sweep)}), 4, at(kVariate));
+      const physics::NoiseState state = physics::make_noise_state({1, 1, static_cast<std::uint32_t>(sweep)});
+      physics::simd::speckle(count_, state, 4, physics::speckle_cells(spacing_m_, receiver_.pulse_length_m, state),
+                             at(kVariate));
     });
     const std::array<float, 3> join{0.25F, 0.5F, 0.25F};
-    const physics::simd::VideoInputs video{at(kSmeared), at(kSmeared), at(kSmeared), join.data(), 1e-4F,
-                                           at(kVariate), cell_.data(), 0.0F,         45.0F};
+    const physics::simd::VideoInputs video{at(kSmeared), at(kSmeared), at(kSmeared), join.data(),
+                                           1e-4F,        at(kVariate), 0.0F,         45.0F};
     stage("video", {kSmeared, kVariate}, {kSpare},
           [&](int) { physics::simd::form_video(count_, video, video_.data()); });
     std::printf("{\"stages_ns\":{%s},\"floors_ns\":{%s}}\n", stages_.c_str(), floors_.c_str());
@@ -207,10 +204,10 @@ class Stages {
   std::array<memory::CacheAlignedVector<float>, kArrays> arrays_;
   std::vector<float> scratch_ = std::vector<float>(8192);
   std::vector<std::uint8_t> video_;
+  double spacing_m_ = 0.0;
   physics::Receiver receiver_;
   rbm::simd::SweepConstants constants_;
   physics::PulseSmear smear_;
-  memory::CacheAlignedVector<std::int32_t> cell_;
   physics::PositionSampler sampler_;
   physics::PositionArrays positions_;
   physics::Ground ground_;

@@ -34,18 +34,23 @@ inline auto fields(const radar::ViewConfiguration& view) {
                     fields(lines));
 }
 
+// The value, or -1e9 for NaN, so that two unknown values are equal.
+inline double comparable(double value) {
+  return std::isnan(value) ? -1e9 : value;
+}
+
 inline auto fields(const radar::Fidelity& fidelity) {
   const auto& [name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams, slant,
                noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce, map_noise] =
       fidelity;
-  return std::tuple(name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams,
-                    slant, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce,
-                    map_noise);
+  return std::tuple(name, automatic, share, algorithm, earth, comparable(factor), samples, knots, interpolation, posts,
+                    beams, slant, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground,
+                    bounce, map_noise);
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {
   const auto& [frequency, stc, automatic, dynamic, step, floor, land, looks] = receiver;
-  return std::tuple(frequency, std::isnan(stc) ? -1.0 : stc, automatic, dynamic, step, floor, land, looks);
+  return std::tuple(frequency, comparable(stc), automatic, dynamic, step, floor, land, looks);
 }
 
 inline auto fields(const radar::HighResolutionConfiguration& map) {
@@ -72,11 +77,6 @@ inline auto fields(const radar::RoutePoint& point) {
   const auto& [name, kind, position, elevation] = point;
   const auto& [latitude, longitude] = position;
   return std::tuple(name, kind, latitude, longitude, std::isnan(elevation) ? -1e9 : elevation);
-}
-
-// The value, or -1e9 for NaN, so that two unknown values are equal.
-inline double comparable(double value) {
-  return std::isnan(value) ? -1e9 : value;
 }
 
 inline auto fields(const radar::Material& material) {

@@ -21,6 +21,7 @@
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tests/model/terrain/sampling/rough_cell.hpp"
+#include "tests/model/terrain/shapes.hpp"
 #include "tests/model/terrain/shared_data.hpp"
 #include "tests/truth/ledger.hpp"
 
@@ -257,6 +258,82 @@ TEST(Relief, APlateausEdgeNearTheObserverHidesThePlain) {
     expect_row({"Relief", std::string("first lit ground behind an edge 31 m ahead, 2 m below, ") + preset,
                 31.0 * 252.0 / 2.0, 9.0, "m", "similar triangles, flat earth", "a sample is 8.5 m long"},
                (static_cast<double>(first) + 0.5) * 4.7 * 1852.0 / 1024.0);
+  }
+}
+
+// A peak 2,000 m high, 8 NM ahead of an aircraft at 15,000 ft. Behind the peak is shadow.
+TEST(Relief, APeakIsAtItsOwnSlantRange) {
+  constexpr double kPeak_m = 2000.0, kPeak_nm = 8.0, kRange_nm = 10.0, kAltitude_m = 4572.0, kMile_m = 1852.0;
+  constexpr std::size_t kSamples = 480;
+  const geo::GeoPoint apex{37.0, -115.0};
+  const geo::GeoPoint peak =
+      geo::geodesic_direct(apex, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(kPeak_nm));
+  const model::terrain::AnalyticTerrain land([peak](geo::GeoPoint position) {
+    return std::max(1.0, kPeak_m - 1.5 * geo::geodesic_inverse(peak, position).distance.metres());
+  });
+  const double radius_m = 4.0 / 3.0 * geo::radius_of_curvature(37.0, geo::Bearing::degrees(0.0)).metres();
+  const double half_rad = 0.5 * kPeak_nm * kMile_m / radius_m;
+  const double slant_m =
+      std::sqrt((kAltitude_m - kPeak_m) * (kAltitude_m - kPeak_m) +
+                4.0 * (radius_m + kAltitude_m) * (radius_m + kPeak_m) * std::sin(half_rad) * std::sin(half_rad));
+  const double sample_nm = kRange_nm / static_cast<double>(kSamples);
+  for (const char* preset : {"reference", "standard"})
+    for (const bool slant : {false, true}) {
+      radar::RadarConfiguration configuration = even_radar(preset, kSamples);
+      configuration.fidelity.pulse_smear = false;
+      configuration.fidelity.slant_range = slant;
+      model::rbm::Beam beam(configuration);
+      std::vector<float> power(kSamples);
+      beam.measure({apex, geo::AltitudeMsl::metres(kAltitude_m), geo::Bearing::degrees(0.0), geo::Angle::degrees(-4.0),
+                    geo::Length::nautical_miles(kRange_nm)},
+                   land, power);
+      // The first dark sample beyond the foot of the peak.
+      std::size_t end = 350;
+      while (end < kSamples && power[end] > 0.0F) ++end;
+      expect_row({"Relief",
+                  std::string("end of the echo of a peak 2,000 m high at 8 NM, 15,000 ft, ") +
+                      (slant ? "slant range, " : "ground range, ") + preset,
+                  slant ? slant_m / kMile_m : kPeak_nm, 2.5 * sample_nm, "NM",
+                  slant ? "law of cosines, triangle with the centre of the 4/3 earth" : "distance over ground",
+                  "a sample is 0.021 NM long"},
+                 static_cast<double>(end) * sample_nm);
+    }
+}
+
+// A cliff returns between the slant ranges of its top and its foot, over the plain before it.
+TEST(Relief, ACliffIsLaidOverThePlainBeforeIt) {
+  constexpr double kTop_m = 1000.0, kCliff_m = 4.0 * 1852.0, kAltitude_m = 4572.0, kRange_nm = 10.0;
+  constexpr std::size_t kSamples = 480;
+  const geo::GeoPoint apex{37.0, -115.0};
+  const model::terrain::AnalyticTerrain land([apex](geo::GeoPoint position) {
+    return 1.0 +
+           kTop_m * std::clamp((geo::geodesic_inverse(apex, position).distance.metres() - kCliff_m) / 40.0, 0.0, 1.0);
+  });
+  const double sample_m = kRange_nm * 1852.0 / static_cast<double>(kSamples);
+  for (const char* preset : {"reference", "standard"}) {
+    radar::RadarConfiguration configuration = even_radar(preset, kSamples);
+    configuration.fidelity.pulse_smear = false;
+    configuration.fidelity.slant_range = true;
+    configuration.fidelity.earth = radar::EarthModel::flat;
+    model::rbm::Beam beam(configuration);
+    std::vector<float> power(kSamples), level(kSamples);
+    const model::physics::SweepGeometry geometry{apex, geo::AltitudeMsl::metres(kAltitude_m),
+                                                 geo::Bearing::degrees(0.0), geo::Angle::degrees(-4.0),
+                                                 geo::Length::nautical_miles(kRange_nm)};
+    beam.measure(geometry, land, power);
+    model::rbm::Beam(configuration)
+        .measure(geometry, model::terrain::AnalyticTerrain(model::terrain::flat(1.0)), level);
+    // Middle of the echo beyond that of level ground.
+    double sum = 0.0, moment = 0.0;
+    for (std::size_t i = 0; i < 470; ++i) {
+      const double more = std::max(0.0, static_cast<double>(power[i]) - 2.0 * static_cast<double>(level[i]));
+      sum += more;
+      moment += more * (static_cast<double>(i) + 0.5) * sample_m;
+    }
+    expect_row({"Relief", std::string("middle of the echo of a cliff of 1,000 m at 4 NM, slant range, ") + preset,
+                0.5 * (std::hypot(kCliff_m, kAltitude_m) + std::hypot(kCliff_m, kAltitude_m - kTop_m)), 40.0, "m",
+                "Pythagoras, flat earth", "the cliff is 40 m deep, a sample 39 m long"},
+               moment / sum);
   }
 }
 

@@ -5,10 +5,13 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/map_image.hpp"
+#include "model/kernel/offline_scan.hpp"
+#include "model/kernel/sweep_chain.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/ground_return.hpp"
 #include "model/rbm/beam.hpp"
 #include "tests/model/physics/decibels.hpp"
+#include "tests/model/terrain/shapes.hpp"
 #include "tests/truth/ledger.hpp"
 
 namespace yars::truth {
@@ -39,7 +42,6 @@ Moments sweeps(int looks) {
   constexpr std::size_t kSamples = 480;
   radar::RadarConfiguration configuration;
   configuration.fidelity.samples = kSamples;
-  configuration.receiver.looks = looks;
   configuration.receiver.noise_floor_db = -200.0;
   configuration.receiver.dynamic_range_db = kDynamicRange_db;
   configuration.pulse_us = {0.01};  // a sample is a resolution cell
@@ -49,8 +51,8 @@ Moments sweeps(int looks) {
   std::vector<std::uint8_t> video(kSamples);
   Moments db;
   for (std::uint32_t number = 0; number < 1000; ++number) {
-    algorithm->form_video({sweep, sweep, sweep}, geo::Length::nautical_miles(20.0), physics::kFullGain, {1, 1, number},
-                          video);
+    algorithm->form_video({sweep, sweep, sweep, 0.0, 0.0, looks}, geo::Length::nautical_miles(20.0), physics::kFullGain,
+                          {1, 1, number}, video);
     add_video(video, db);
   }
   return db;
@@ -109,6 +111,99 @@ TEST(Truth, SpeckleOfMapsLowersTheMeanOfTheLogarithm) {
                maps(point.looks).mean());
 }
 
+// Correlation of the power of samples `apart` samples from each other, one look.
+double correlation(double range_nm, std::size_t apart) {
+  constexpr std::size_t kSamples = 480;
+  radar::RadarConfiguration configuration;
+  configuration.receiver.noise_floor_db = -200.0;
+  configuration.receiver.dynamic_range_db = 120.0;
+  const auto algorithm = model::rbm::make_algorithm(configuration);
+  const std::vector<float> power(kSamples, 1e-4F);
+  std::vector<std::uint8_t> video(kSamples);
+  double pairs = 0.0, products = 0.0;
+  Moments single;
+  const auto intensity = [&](std::size_t i) { return std::pow(10.0, 12.0 * (video[i] / 255.0 - 1.0) + 4.0); };
+  for (std::uint32_t number = 0; number < 1000; ++number) {
+    algorithm->form_video({power, power, power}, geo::Length::nautical_miles(range_nm), physics::kFullGain,
+                          {1, 1, number}, video);
+    for (std::size_t i = 0; i + apart < kSamples; ++i) {
+      single.add(intensity(i));
+      products += intensity(i) * intensity(i + apart);
+      pairs += 1.0;
+    }
+  }
+  return (products / pairs - single.mean() * single.mean()) / (single.deviation() * single.deviation());
+}
+
+TEST(Truth, NeighbouringSamplesCorrelateAsTheyShareAPulse) {
+  struct Point {
+    double range_nm;
+    std::size_t apart;
+    double samples_of_pulse;
+  };
+  const double metres_of_pulse = 149.896229, metres_of_mile = 1852.0;
+  const auto samples = [&](double range_nm, double pulse_us) {
+    return pulse_us * metres_of_pulse / (range_nm * metres_of_mile / 480.0);
+  };
+  for (const Point& point : {Point{4.7, 1, samples(4.7, 0.26)},
+                             {40.0, 1, samples(40.0, 2.0)},
+                             {160.0, 1, samples(160.0, 6.0)},
+                             {40.0, 2, samples(40.0, 2.0)}}) {
+    const double left = std::max(0.0, 1.0 - static_cast<double>(point.apart) / point.samples_of_pulse);
+    expect_row({"Speckle",
+                "correlation of samples " + std::to_string(point.apart) + " apart, " +
+                    std::to_string(static_cast<int>(point.range_nm)) + " NM",
+                left * left, 0.02, "", "rectangular pulse in a matched receiver: (1 − Δ/L)², Goodman 1975",
+                "480,000 pairs; a rectangular cell is a model of the receiver"},
+               correlation(point.range_nm, point.apart));
+  }
+}
+
+// Number of looks of a scan: mean^2 / variance of the power of its speckle in the sweeps about an azimuth.
+double looks_of_scan(double off_track_deg) {
+  radar::RadarConfiguration configuration;
+  configuration.receiver.noise_floor_db = -200.0;
+  configuration.receiver.dynamic_range_db = 120.0;
+  configuration.receiver.automatic_gain = false;
+  configuration.pulse_us = {0.01};
+  configuration.world.land.texture = 0.0;
+  const model::terrain::AnalyticTerrain land(model::terrain::flat(1.0));
+  model::kernel::ScanRequest request;
+  request.pose.position = {37.0, -115.0};
+  request.pose.altitude = geo::AltitudeMsl::feet(15000.0);
+  request.pose.ground_speed = geo::Speed::knots(480.0);
+  request.range = geo::Length::nautical_miles(20.0);
+  request.width = geo::Angle::degrees(120.0);
+  Moments power;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    configuration.seed = seed;
+    model::kernel::OfflineScan scan(configuration, request, 1);
+    scan.run({land, nullptr});
+    for (std::size_t i = 0; i < scan.sweeps().size(); ++i) {
+      const double azimuth_deg = model::kernel::geometry_of(scan.headers()[i]).azimuth.degrees();
+      const double off_deg = std::abs(geo::wrapped_degrees(azimuth_deg));
+      if (std::abs(off_deg - off_track_deg) > 1.0) continue;
+      for (std::size_t k = 100; k < 480; ++k)
+        power.add(std::pow(10.0, 12.0 * (scan.sweeps()[i].video[k] / 255.0 - 1.0)) /
+                  static_cast<double>(scan.power()[i * 480 + k]));
+    }
+  }
+  return power.mean() * power.mean() / (power.deviation() * power.deviation());
+}
+
+TEST(Truth, LooksGoWithTheDopplerSpreadOfTheBeam) {
+  const double beam_rad = 2.5 * geo::kRadiansPerDegree, speed_mps = 480.0 * 1852.0 / 3600.0;
+  const double wavelength_m = 299792458.0 / 9.6e9, dwell_s = 2.5 / 110.0;
+  for (const double off_deg : {2.0, 30.0, 50.0}) {
+    const double looks =
+        std::max(1.0, 2.0 * speed_mps * beam_rad * std::sin(off_deg * geo::kRadiansPerDegree) * dwell_s / wavelength_m);
+    expect_row({"Speckle", "looks " + std::to_string(static_cast<int>(off_deg)) + "° off the track, 480 kt", looks,
+                0.07 * looks, "", "2 V θ sin φ T/λ, at least 1: Doppler spread times dwell, Skolnik 2001, chapter 7",
+                "a whole number of looks; 8 bits"},
+               looks_of_scan(off_deg));
+  }
+}
+
 // <I^2> / <I>^2 of single-look ground with a texture.
 double second_moment(double shape) {
   radar::RadarConfiguration configuration;
@@ -119,7 +214,7 @@ double second_moment(double shape) {
   std::vector<float> variates(kCells + 16);
   Moments intensity;
   for (std::uint32_t row = 0; row < 1000; ++row) {
-    physics::simd::speckle(kCells, physics::make_noise_state({1, 1, row}), 1, variates.data());
+    physics::simd::speckle(kCells, physics::make_noise_state({1, 1, row}), 1, {}, variates.data());
     for (std::size_t column = 0; column < kCells; ++column) {
       const geo::GeoPoint position{37.0 + 0.0005 * row, -122.0 + 0.0005 * static_cast<double>(column)};
       const double mean = surface.at({position, {}, 0.1}).gamma;

@@ -9,6 +9,7 @@
 #include "lib/file/text_file.hpp"
 #include "lib/radar/sensor.hpp"
 #include "lib/values/fields.hpp"
+#include "yars/requests.hpp"
 
 namespace yars::tools::trade {
 
@@ -58,6 +59,7 @@ model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width,
   request.pose.altitude = geo::AltitudeMsl::feet(scene.altitude_ft);
   request.pose.platform.heading = geo::Bearing::degrees(scene.heading_deg);
   request.pose.platform.ground_track = request.pose.platform.heading;
+  request.pose.ground_speed = geo::Speed::knots(yars::ScanRequest().speed_kt);
   request.range = geo::Length::nautical_miles(scene.range_nm);
   request.width = width;
   const double down_deg = std::atan2(-request.pose.altitude.metres(), request.range.metres()) / geo::kRadiansPerDegree;

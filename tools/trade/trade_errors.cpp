@@ -183,8 +183,7 @@ using radar::RadarConfiguration;
 using radar::ray_samples;
 using radar::RaySample;
 
-double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
-                        const model::terrain::TerrainView& terrain) {
+double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan) {
   // The algorithm `reference` solves the geodesic for each sample, so its positions are exact.
   if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
   constexpr std::size_t kStep = 4;  // checks every 4th sample of every 4th sweep: the error varies slowly
@@ -193,10 +192,7 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   for (std::size_t sweep = 0; sweep < scan.headers().size(); sweep += kStep) {
     const SweepGeometry geometry = model::kernel::geometry_of(scan.headers()[sweep]);
     std::vector<double> exact_m(positions.count);
-    const auto earth = model::physics::effective_earth(configuration, geometry);
-    model::physics::sample_distances(configuration, earth, geometry, terrain, exact_m);
-    // Samples without ground at their slant range get ground range 0.
-    std::replace_if(exact_m.begin(), exact_m.end(), [](double value) { return std::isnan(value); }, 0.0);
+    model::physics::sample_distances(geometry.range, exact_m);
     std::vector<float> distance_m(exact_m.begin(), exact_m.end());
     distance_m.resize(distance_m.size() + model::terrain::kRunSlack, 0.0F);
     model::physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range,
@@ -231,7 +227,7 @@ ScanObservation observe_scan(const RadarConfiguration& configuration, const mode
     observation.video.insert(observation.video.end(), &sweep.video[0], &sweep.video[0] + sweep.samples);
   observation.seen = flags_of(ray, [](const RaySample& sample) { return sample.lit; });
   observation.returns = flags_of(ray, [](const RaySample& sample) { return sample.returns; });
-  observation.position_m = position_error_m(configuration, scan, terrain);
+  observation.position_m = position_error_m(configuration, scan);
   observation.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
   return observation;
 }

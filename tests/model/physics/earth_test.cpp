@@ -88,9 +88,10 @@ TEST(EffectiveEarth, SlantRangesBelowTheHeightAboveGroundReturnNothing) {
   configuration.fidelity.slant_range = true;
   const terrain::AnalyticTerrain land(terrain::flat(500.0));
   // Samples of 100 m and ground 2000 m below the aircraft: the first 20 samples are empty.
-  const auto samples = test::seen_by_reference(configuration, test::geometry_north(2500.0, 10000.0), land);
-  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(samples[i].power, 0.0) << i;
-  for (std::size_t i = 20; i < 100; ++i) EXPECT_GT(samples[i].power, 0.0) << i;
+  std::vector<float> power(100);
+  Reference(configuration).measure(test::geometry_north(2500.0, 10000.0), land, power);
+  for (std::size_t i = 0; i < 19; ++i) EXPECT_EQ(power[i], 0.0F) << i;
+  for (std::size_t i = 20; i < 100; ++i) EXPECT_GT(power[i], 0.0F) << i;
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ TEST(Gases, OfSamplesAgreeWithThoseOfRays) {
         std::vector<float> distance_m(kSamples), heights(kSamples, height_m), factor(kSamples, 1.0F);
         for (std::size_t i = 0; i < kSamples; ++i)
           distance_m[i] = static_cast<float>((static_cast<double>(i) + 0.5) * range_nm * kNauticalMile_m / kSamples);
-        samples.use(path, altitude_m, range_nm * kNauticalMile_m, distance_m, true);
+        samples.use(path, altitude_m, range_nm * kNauticalMile_m, distance_m);
         const physics::GasSamples::Coefficients loss = samples.coefficients();
         const float h = std::clamp(height_m, physics::GasSamples::kLowest_m, physics::GasSamples::kHighest_m);
         for (std::size_t i = 0; i < kSamples; ++i) {

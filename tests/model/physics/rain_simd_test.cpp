@@ -78,7 +78,7 @@ class Sweep {
     RainSamples rain(configuration_, samples);
     rain.enter(geometry_);
     EXPECT_FALSE(rain.dry());
-    rain.measure(geometry_, earth_, receiver_, 0, {distance_m_.data(), elevation_m_.data(), horizon_.data()});
+    rain.measure(geometry_, earth_, receiver_, {distance_m_.data(), elevation_m_.data(), horizon_.data()});
     return {{rain.power(), rain.power() + samples}, {rain.transmission(), rain.transmission() + samples}};
   }
 

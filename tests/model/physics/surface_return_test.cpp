@@ -71,7 +71,6 @@ Moments k_clutter(double shape, int looks) {
   configuration.receiver.dynamic_range_db = 120.0;
   configuration.receiver.noise_floor_db = -120.0;
   configuration.receiver.gain_step_db = 10.0;  // at gain 0 no sample clips
-  configuration.receiver.looks = looks;
   configuration.world.land.texture = shape;
   physics::SweepGeometry geometry = test::geometry_north(3000.0, 80000.0);
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
@@ -85,7 +84,7 @@ Moments k_clutter(double shape, int looks) {
     geometry.apex.longitude_deg = 0.36 * sweep - 180.0;  // different ground for each sweep
     textured.measure(geometry, plain, power);
     untextured.measure(geometry, plain, mean);
-    textured.form_video({power, power, power}, geometry.range, 0, {5, 1, sweep}, video);
+    textured.form_video({power, power, power, 0.0, 0.0, looks}, geometry.range, 0, {5, 1, sweep}, video);
     for (std::size_t i = 25; i < 250; ++i) {
       const double relative = std::pow(10.0, 12.0 * (video[i] / 255.0 - 1.0) + 3.0) / static_cast<double>(mean[i]);
       sum += relative;

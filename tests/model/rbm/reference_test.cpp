@@ -173,14 +173,14 @@ TEST(Reference, UniformClutterFluctuatesAsTheMeanOfItsLooks) {
     double deviation_db;
   };
   for (const Row row : {Row{1, 5.57}, Row{2, 3.49}, Row{4, 2.31}, Row{8, 1.58}, Row{16, 1.10}}) {
-    configuration.receiver.looks = row.looks;
     Reference reference(configuration);
     const std::vector<float> power(4096, 1e-2F);
     std::vector<std::uint8_t> video(4096);
     double sum = 0.0, squares = 0.0, count = 0.0;
     for (std::uint32_t sweep = 0; sweep < 20; ++sweep) {
       // A range so long that every sample is a resolution cell of its own.
-      reference.form_video({power, power, power}, geo::Length::metres(4e6), 3, {99, 1, sweep}, video);
+      reference.form_video({power, power, power, 0.0, 0.0, row.looks}, geo::Length::metres(4e6), 3, {99, 1, sweep},
+                           video);
       for (const std::uint8_t level : video) {
         const double db = level / 255.0 * 60.0;
         sum += db;
