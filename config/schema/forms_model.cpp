@@ -308,7 +308,9 @@ std::vector<SlotSchema> map_fidelity_slots() {
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
        .purpose = "random fraction of the brightness of patch maps of algorithm report-1996"},
       flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
-           "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets")};
+           "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets"),
+      flag("diffraction", YARS_FIELD(radar.fidelity.diffraction),
+           "edges bend rays into shadows; with the algorithm reference only")};
 }
 
 std::vector<SlotSchema> receiver_slots() {

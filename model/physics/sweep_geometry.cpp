@@ -155,6 +155,16 @@ EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoi
   return {radius_m, lift, parameters.exact ? parameters.refraction->traced(altitude.metres()) : nullptr};
 }
 
+double knife_edge_loss_db(double v) {
+  if (v <= -0.78) return 0.0;
+  const double x = v - 0.1;
+  return 6.9 + 20.0 * std::log10(std::sqrt(x * x + 1.0) + x);
+}
+
+double diffraction_parameter(double above_m, double edge_m, double end_m, double wavelength_m) {
+  return above_m * std::sqrt(2.0 * end_m / (wavelength_m * edge_m * (end_m - edge_m)));
+}
+
 double arc_per_plane(double plane_square_m2, double radius_of_curvature_m) {
   const double u = plane_square_m2 / (radius_of_curvature_m * radius_of_curvature_m);
   return 1.0 + u * (1.0 / 6.0 + u * (3.0 / 40.0 + u * (15.0 / 336.0 + u * (105.0 / 3456.0))));

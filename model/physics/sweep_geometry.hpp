@@ -145,6 +145,13 @@ inline EffectiveEarth effective_earth(const GeometryParameters& parameters, cons
   return effective_earth(parameters, geometry.apex, geometry.altitude, geometry.azimuth);
 }
 
+// Loss [dB, one way] of a ray by a knife edge. `v`: parameter of diffraction; 0 where the edge touches the ray,
+// positive where it is above it. 0 below -0.78. Source: Recommendation ITU-R P.526-15, eq. 31.
+double knife_edge_loss_db(double v);
+// The parameter v: `above_m` is the height of the edge above the ray, at `edge_m` of the ray's length `end_m`.
+// P.526-15, eq. 26.
+double diffraction_parameter(double above_m, double edge_m, double end_m, double wavelength_m);
+
 // Distance over ground of a point on the ellipsoid, divided by its distance in the apex's horizontal plane: arcsine(x)
 // / x, where x is the square root of `plane_square_m2` / radius of curvature. Series, within 3 m as far as 1,000 NM.
 double arc_per_plane(double plane_square_m2, double radius_of_curvature_m);

@@ -10,6 +10,8 @@
 namespace yars::model::rbm {
 
 namespace {
+constexpr double kClear = -0.78;  // parameter of diffraction below which there is no loss
+
 // Speckle of mean 1 and variance 1/looks: the mean of `looks` exponential variates of 16 random bits each.
 double speckle(physics::NoiseState state, std::uint32_t cell, int looks) {
   double sum = 0.0;
@@ -99,6 +101,7 @@ void Reference::walk_ground(const physics::SweepGeometry& geometry, const physic
   const double altitude_m = geometry.altitude.metres();
   std::fill(bins_.begin(), bins_.end(), 0.0);
   std::fill(slant_m_.begin(), slant_m_.end(), 0.0);
+  edge_ = kNoEdge;
   // The ground below the aircraft is seen straight downwards.
   Front front{0.0, walk.below().elevation_m, kNone, kNone};
   if (std::isnan(front.height_m)) front.tangent = front.height_m;
@@ -112,6 +115,7 @@ void Reference::walk_ground(const physics::SweepGeometry& geometry, const physic
       if (!std::isnan(point.surface.peak_m)) {
         next.tangent = earth.tangent(altitude_m, point.distance_m, point.surface.peak_m);
         next.horizon = std::max(front.horizon, next.tangent);
+        if (fidelity_.diffraction) follow_edge(front, next, receiver.wavelength_m);
         if (point.distance_m > cell.from_m) add_ground(geometry, receiver, earth, cell, front, next, point);
       }
       if (point.distance_m == sample.distance_m && !std::isnan(sample.peak_m))
@@ -128,16 +132,33 @@ void Reference::walk_ground(const physics::SweepGeometry& geometry, const physic
     for (std::size_t bin = 0; bin < kBinsOfCell; ++bin) samples_[i].power += bins_[i * kBinsOfCell + bin] / kBins;
 }
 
-// Adds the return of the ground from one position of the walk to the next, as far as it is above the horizon. Land of
+// Parameter of diffraction of the ray to a point by the edge; NaN: no edge.
+double Reference::parameter_at(double tangent, double distance_m, double wavelength_m) const {
+  return physics::diffraction_parameter((edge_.tangent - tangent) * edge_.distance_m, edge_.distance_m, distance_m,
+                                        wavelength_m);
+}
+
+// Ground that falls below the horizon makes the position before it an edge. It is left where it is clear of all rays.
+void Reference::follow_edge(const Front& from, const Front& to, double wavelength_m) {
+  if (to.tangent < from.horizon && from.tangent >= from.horizon && from.distance_m > 0.0) {
+    edge_ = {from.horizon, from.distance_m};
+  } else if (parameter_at(to.tangent, to.distance_m, wavelength_m) < kClear) {
+    edge_ = kNoEdge;
+  }
+}
+
+// Adds the return of the ground from one position of the walk to the next, as far as it is above the horizon, or as far
+// as an edge bends rays to it. Land of
 // the reflectivity gamma has the cross section gamma times its area normal to the ray: r theta_az times r times the
 // angle of elevation over which it is seen. Sea has sigma0 times the area of its level surface. Texture and streets are
 // those of the sample's middle, because texture belongs to a resolution cell.
 void Reference::add_ground(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
                            const physics::EffectiveEarth& earth, const Cell& cell, const Front& from, const Front& to,
                            const physics::GroundWalk::Point& point) {
-  if (std::isnan(from.tangent) || std::isnan(to.height_m) || !(to.tangent > from.horizon)) return;
-  const double hidden_rad = std::atan(from.horizon), near_rad = std::atan(from.tangent),
-               far_rad = std::atan(to.tangent);
+  const bool diffracted = !std::isnan(edge_.tangent);
+  const double hidden = diffracted ? from.tangent : from.horizon;
+  if (std::isnan(from.tangent) || std::isnan(to.height_m) || !(to.tangent > hidden)) return;
+  const double hidden_rad = std::atan(hidden), near_rad = std::atan(from.tangent), far_rad = std::atan(to.tangent);
   const double seen_rad = far_rad - hidden_rad;
   if (!(seen_rad > 0.0)) return;                             // less than the rounding of an angle
   const double seen_part = seen_rad / (far_rad - near_rad);  // of the way between the positions
@@ -158,8 +179,10 @@ void Reference::add_ground(const physics::SweepGeometry& geometry, const physics
                        (cell.to_m - cell.from_m);
   const double gain = physics::two_way_gain(fidelity_.beam, receiver.elevation_beamwidth_rad,
                                             geometry.elevation.radians(), sight.elevation_rad);
-  const double power_per_m2 =
-      physics::received(receiver, physics::returned_power(cells, cell.gas * gain, range_m), range_m);
+  const double loss_db =
+      diffracted ? physics::knife_edge_loss_db(parameter_at(sight.tangent, distance_m, receiver.wavelength_m)) : 0.0;
+  const double way = cell.gas * physics::ratio(-2.0 * loss_db);
+  const double power_per_m2 = physics::received(receiver, physics::returned_power(cells, way * gain, range_m), range_m);
   const double bin = kBins * (distance_m - cell.from_m) / (cell.to_m - cell.from_m);
   const auto number = static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0));
   const double power = kBins * power_per_m2 * (ground.gamma * normal_m2 + sea_m2);

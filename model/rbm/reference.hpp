@@ -5,6 +5,7 @@
 // Source: docs/radar_maths.md.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "lib/radar/fidelity.hpp"
@@ -59,6 +60,11 @@ class Reference : public Algorithm {
     double tangent = 0.0;   // of the ground at the position; NaN: void
     double horizon = 0.0;   // maximum tangent up to the position
   };
+  // The last edge of a shadow. NaN: none that diffracts rays to the ground beyond.
+  struct Edge {
+    double tangent = 0.0, distance_m = 0.0;
+  };
+  static constexpr Edge kNoEdge{std::numeric_limits<double>::quiet_NaN(), 0.0};
   // What is equal for all ground of a sample's cell.
   struct Cell {
     std::size_t number;
@@ -69,6 +75,8 @@ class Reference : public Algorithm {
   void walk_ground(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
                    const physics::GroundWalk& walk);
   Cell cell_of(std::size_t number) const;
+  double parameter_at(double tangent, double distance_m, double wavelength_m) const;
+  void follow_edge(const Front& from, const Front& to, double wavelength_m);
   void add_ground(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
                   const physics::EffectiveEarth& earth, const Cell& cell, const Front& from, const Front& to,
                   const physics::GroundWalk::Point& point);
@@ -87,6 +95,7 @@ class Reference : public Algorithm {
   physics::GasPath gas_;
   SceneCovers scene_covers_;
   std::vector<Sample> samples_;
+  Edge edge_ = kNoEdge;
   std::vector<double> bins_;  // power, kBinsOfCell of each sample, in the unit of Sample::power
   // Mean slant range of the return of each bin [m], and bins by slant range.
   std::vector<double> slant_m_, moved_bins_;

@@ -41,11 +41,11 @@ inline double comparable(double value) {
 
 inline auto fields(const radar::Fidelity& fidelity) {
   const auto& [name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams, slant,
-               noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce, map_noise] =
-      fidelity;
+               noise, azimuth, pulse, beam, diffraction, size, oversampling, layover, response, detail, ground, bounce,
+               map_noise] = fidelity;
   return std::tuple(name, automatic, share, algorithm, earth, comparable(factor), samples, knots, interpolation, posts,
-                    beams, slant, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground,
-                    bounce, map_noise);
+                    beams, slant, noise, azimuth, pulse, beam, diffraction, size, oversampling, layover, response,
+                    detail, ground, bounce, map_noise);
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {

@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongValue{"( Noise :floor low )",
                    "text.guf:1:16: expected a number in [-120, 0] dB for :floor, found the identifier low"},
         WrongValue{"( Noise :looks 2.5 )",
-                   "text.guf:1:16: expected a whole number in [1, 16] for :looks, found the number 2.5"},
+                   "text.guf:1:16: expected a whole number in [0, 16] for :looks, found the number 2.5"},
         WrongValue{"( Noise :seed -1 )", "text.guf:1:15: expected a whole number in [0, 9007199254740992] for :seed"},
         WrongValue{"( Fidelity :noise 1 )", "text.guf:1:19: expected true or false for :noise, found the number 1"},
         WrongValue{"( Fidelity :beam wide )",

@@ -149,6 +149,7 @@ class RandomConfiguration {
     made.automatic = coin();
     made.core_share = number(0.001, 1);
     made.slant_range = coin();
+    made.diffraction = coin();
     made.noise = coin();
     made.azimuth_smear = coin();
     made.pulse_smear = coin();
