@@ -15,7 +15,7 @@ namespace yars::radar {
 
 // Number of the radar model. It increases when equal inputs give another picture. Recordings, data sets and hosts of
 // one session compare it: sweeps of different models are not comparable. 1: releases up to 0.4. 2: power of all visible
-// ground, mapping beam of csc^4, noise by range and pulse.
+// ground, mapping beam of csc^4, noise by range and pulse, movers that fluctuate.
 inline constexpr unsigned kModelNumber = 2;
 
 inline constexpr int kMaxSubBeams = 15;  // maximum of Fidelity::sub_beams; bounds the work of one sweep

@@ -29,7 +29,16 @@ radar::WorldConfiguration configured() {
   world.sea.wind_from_deg = 123.4;
   world.rain.cells = {{{37.1, -122.1}, 9000.0, 20.0, 6000.0}};
   world.jamming.jammers = {{"noise", {37.2, -122.2}, 300.0, 2, {1, 4, 8}, 55.0}};
-  world.movers = {{"ship", {37.3, -122.3}, 9.0, 45.0, 5000.0, 12.0, geo::Duration::seconds(1.5)}};
+  world.movers = {{"ship",
+                   {37.3, -122.3},
+                   9.0,
+                   45.0,
+                   5000.0,
+                   12.0,
+                   geo::Duration::seconds(1.5),
+                   radar::TargetEcho::trihedral,
+                   40,
+                   -10}};
   return world;
 }
 
