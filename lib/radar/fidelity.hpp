@@ -48,14 +48,14 @@ struct Fidelity {
   bool pulse_smear = true;     // smear over the pulse length
   BeamPattern beam = BeamPattern::mapping;
   // Parameters of patch maps.
-  int map_size = 480;              // [pixels] edge of the map; in a session at most 1024
-  int map_oversampling = 1;        // cells of the polar grid (range, azimuth) per pixel, in each direction, 1 to 4
-  bool map_layover = true;         // slant range geometry with layover; false: orthographic
-  bool map_response = true;        // impulse response with sidelobes
-  bool map_detail = true;          // synthetic texture finer than the posts
-  bool map_smooth_ground = true;   // smooth ground between posts if pixels are finer than posts; false: facets
-  bool map_double_bounce = false;  // reflection between walls and ground
-  double map_noise = 0.10;         // algorithm of preset 1996 only: random fraction of the brightness, [0, 1]
+  int map_size = 480;             // [pixels] edge of the map; in a session at most 1024
+  int map_oversampling = 1;       // cells of the polar grid (range, azimuth) per pixel, in each direction, 1 to 4
+  bool map_layover = true;        // slant range geometry with layover; false: orthographic
+  bool map_response = true;       // impulse response with sidelobes
+  bool map_detail = true;         // synthetic texture finer than the posts
+  bool map_smooth_ground = true;  // smooth ground between posts if pixels are finer than posts; false: facets
+  bool map_double_bounce = true;  // reflection between walls and ground
+  double map_noise = 0.10;        // algorithm of preset 1996 only: random fraction of the brightness, [0, 1]
 };
 
 // Names of the presets of lib/values/presets.idl, in ascending order of work.
