@@ -327,6 +327,19 @@ TEST(WorldPoints, ARecordWithWrongNamesOrKindsIsInvalid) {
             std::string::npos);
 }
 
+TEST(WorldEdit, ARecordWithAnUnknownEchoOrAxisIsInvalid) {
+  const auto refusal = [](auto change) {
+    databuffer::WorldState world = a_world();
+    change(world.movers[0]);
+    return databuffer::validate(world).value_or("valid");
+  };
+  EXPECT_EQ(refusal([](databuffer::WorldMover&) {}), "valid");
+  EXPECT_NE(refusal([](databuffer::WorldMover& mover) { mover.echo = 5; }).find("echo"), std::string::npos);
+  EXPECT_NE(refusal([](databuffer::WorldMover& mover) { mover.tilt_deg = 91; }).find("tilt_deg"), std::string::npos);
+  EXPECT_NE(refusal([](databuffer::WorldMover& mover) { mover.facing_deg = 360; }).find("facing_deg"),
+            std::string::npos);
+}
+
 TEST(WorldEdit, AFullListTakesNoRemovedEntryBack) {
   databuffer::WorldState world = a_world();
   const databuffer::WorldJammer jammer = world.jammers[0];
