@@ -195,7 +195,7 @@ double half_power_width_deg(const physics::PointTarget& target, bool level) {
 
 TEST(Truth, ACornerReflectorHasAnAspect) {
   using radar::TargetEcho;
-  const std::string trihedral = "4π a⁴ / 3λ², Doerry and Brock 2009, SAND2009-2993";
+  const std::string trihedral = "4π a⁴ / 3λ², Doerry, Reflectors for SAR performance testing, Sandia";
   const std::string dihedral = "8π a² b² / λ², Knott, Shaeffer and Tuley, Radar Cross Section";
   const double triple_m2 = radar::reflector_cross_section_m2(TargetEcho::trihedral, 0.5, 9.7);
   const double double_m2 = radar::reflector_cross_section_m2(TargetEcho::dihedral, 0.5, 9.7);
