@@ -271,7 +271,7 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .purpose = "incidence angle includes the slope across the sweep",
        .instead = "land returns by its area normal to the ray, whatever the slope across the sweep"},
       flag("noise", YARS_FIELD(radar.fidelity.noise),
-           "random fluctuation: of sweeps by speckle and texture, of patch maps by speckle"),
+           "random fluctuation: of sweeps by speckle and texture, of patch maps by speckle, of movers by their echo"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over three sweeps"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
       {.name = "beam",

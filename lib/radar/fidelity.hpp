@@ -43,7 +43,7 @@ struct Fidelity {
   // sweep, in the middle of its beam.
   int sub_beams = 4;
   bool slant_range = false;    // true: samples at equal steps of slant range; false: of ground range
-  bool noise = true;           // random fluctuation: speckle and texture of sweeps, speckle of maps
+  bool noise = true;           // random fluctuation: speckle, texture of sweeps, echoes of movers
   bool azimuth_smear = false;  // smear over three sweeps
   bool pulse_smear = true;     // smear over the pulse length
   BeamPattern beam = BeamPattern::mapping;
