@@ -76,12 +76,14 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
 static_assert(Mover{}.cross_section_m2 == values::WorldMover::cross_section.initial);
 static_assert(Mover{}.height_m == values::WorldMover::height.initial * values::WorldMover::height.factor);
 
-model::physics::MovingPoint moving_point(const Mover& mover, const hrm::PatchOrder& order) {
+constexpr std::uint64_t kSubjectNumbers = 1ULL << 33U;  // PointTarget::number is beyond those of configured movers
+
+model::physics::MovingPoint moving_point(const Mover& mover, const hrm::PatchOrder& order, std::uint64_t number) {
   return model::physics::moving_point({{mover.latitude_deg, mover.longitude_deg},
                                        geo::Bearing::degrees(mover.heading_deg),
                                        geo::Speed::knots(mover.speed_kt).metres_per_second(),
                                        order.sim_time},
-                                      mover.cross_section_m2, mover.height_m);
+                                      {.cross_section_m2 = mover.cross_section_m2, .number = number}, mover.height_m);
 }
 
 std::size_t threads_of(const PatchRequest& request) {
@@ -125,7 +127,8 @@ void Patch::Work::prepare(const Terrain& terrain, const PatchRequest& request, c
   });
   if (!request.force) check_heights(wanted, environment, configuration);
   order = wanted;
-  for (const Mover& mover : subject.movers) environment.traffic.push_back(moving_point(mover, order));
+  for (const Mover& mover : subject.movers)
+    environment.traffic.push_back(moving_point(mover, order, kSubjectNumbers + environment.traffic.size()));
 }
 
 std::span<const std::string_view> Patch::steps() {

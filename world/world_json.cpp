@@ -40,6 +40,11 @@ ordered_json object_of(const Entry& entry) {
     for (int channel = 0; channel < radar::kChannels; ++channel)
       if ((entry.channels >> channel & 1U) != 0U) channels.push_back(channel + 1);
   }
+  if constexpr (std::is_same_v<Entry, databuffer::WorldMover>) {
+    object["echo"] = echo_name(entry);
+    object["facing_deg"] = entry.facing_deg;
+    object["tilt_deg"] = entry.tilt_deg;
+  }
   if constexpr (std::is_same_v<Entry, databuffer::WorldPoint>) object["kind"] = kind_name(entry);
   return object;
 }
@@ -53,6 +58,10 @@ const char* band_name(std::int32_t band) {
 
 std::string_view kind_name(const databuffer::WorldPoint& point) {
   return radar::kPointKindNames[std::min<std::size_t>(point.kind, radar::kPointKindNames.size() - 1)];
+}
+
+std::string_view echo_name(const databuffer::WorldMover& mover) {
+  return radar::kTargetEchoNames[std::min<std::size_t>(mover.echo, radar::kTargetEchoNames.size() - 1)];
 }
 
 nlohmann::ordered_json world_json(const databuffer::WorldState& world, std::int64_t sim_time_ns) {

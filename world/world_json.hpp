@@ -16,5 +16,7 @@ nlohmann::ordered_json world_json(const databuffer::WorldState& world, std::int6
 const char* band_name(std::int32_t band);
 // Word for the kind of a sequence point, such as "target" (radar::kPointKindNames).
 std::string_view kind_name(const databuffer::WorldPoint& point);
+// Word for the echo of a mover, such as "swerling1" (radar::kTargetEchoNames).
+std::string_view echo_name(const databuffer::WorldMover& mover);
 
 }  // namespace yars::world

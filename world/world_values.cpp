@@ -50,9 +50,15 @@ void copy_others(const databuffer::WorldJammer& record, radar::Jammer& configure
 }
 void copy_others(const radar::Mover& configured, databuffer::WorldMover& record) {
   record.since_ns = std::llround(configured.since.seconds() / kSecondsPerNanosecond);
+  record.echo = static_cast<std::uint8_t>(configured.echo);
+  record.facing_deg = static_cast<std::uint16_t>(configured.facing_deg);
+  record.tilt_deg = static_cast<std::int8_t>(configured.tilt_deg);
 }
 void copy_others(const databuffer::WorldMover& record, radar::Mover& configured) {
   configured.since = geo::Duration::seconds(static_cast<double>(record.since_ns) * kSecondsPerNanosecond);
+  configured.echo = static_cast<radar::TargetEcho>(record.echo);
+  configured.facing_deg = record.facing_deg;
+  configured.tilt_deg = record.tilt_deg;
 }
 void copy_others(const radar::RoutePoint& configured, databuffer::WorldPoint& record) {
   record.kind = static_cast<std::uint8_t>(configured.kind);

@@ -1,4 +1,4 @@
-// Forms of the configuration language GUF with their slots (schema.hpp): jammers, scenes, beacons.
+// Forms of the configuration language GUF with their slots (schema.hpp): jammers, movers, scenes, beacons.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,6 +6,8 @@
 #include "config/guf/parser.hpp"
 #include "config/schema/list_forms.hpp"
 #include "config/schema/schema.hpp"
+#include "lib/radar/configuration.hpp"
+#include "lib/radar/cross_section.hpp"
 #include "lib/radar/world.hpp"
 
 namespace yars::config {
@@ -63,6 +65,100 @@ FormSchema jammers() {
   return form;
 }
 
+// Cross section that the displacement of a ship or the edge of a reflector gives; NaN: neither is given.
+double cross_section_by_size(const radar::Mover& mover, double frequency_ghz) {
+  if (!std::isnan(mover.displacement_t)) return radar::ship_cross_section_m2(mover.displacement_t, frequency_ghz);
+  if (std::isnan(mover.edge_m)) return kNotGiven;
+  return radar::reflector_cross_section_m2(mover.echo, mover.edge_m, frequency_ghz);
+}
+
+void begin_mover(ConfigurationBuilder& builder) {
+  radar::Mover& mover = entry_read<radar::Mover>(builder) = {};
+  mover.position = {kNotGiven, kNotGiven};
+  mover.cross_section_m2 = kNotGiven;
+}
+
+std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& builder) {
+  const auto& mover = std::get<radar::Mover>(builder.entries.of);
+  const std::string echo(radar::kTargetEchoNames.at(static_cast<std::size_t>(mover.echo)));
+  const bool reflector = radar::is_reflector(mover.echo);
+  const int sizes = static_cast<int>(!std::isnan(mover.cross_section_m2)) +
+                    static_cast<int>(!std::isnan(mover.displacement_t)) + static_cast<int>(!std::isnan(mover.edge_m));
+  if (sizes > 1) return ConstraintViolation{"crossSection", "one of crossSection, displacement and edge", "several"};
+  if (reflector && !std::isnan(mover.displacement_t))
+    return ConstraintViolation{"displacement", "a displacement without a reflector's echo", "the echo " + echo};
+  const bool has_axis = mover.facing_deg != 0 || mover.tilt_deg != 0;
+  if (!reflector && (has_axis || !std::isnan(mover.edge_m)))
+    return ConstraintViolation{has_axis ? "facing" : "edge", "the echo trihedral or dihedral", echo};
+  return check_entry_read<radar::Mover>(builder);
+}
+
+// The radar's frequency is known when all forms are read.
+std::optional<ConstraintViolation> check_sizes(const ConfigurationBuilder& builder) {
+  for (const radar::Mover& mover : builder.radar.world.movers) {
+    const double found_m2 = cross_section_by_size(mover, builder.radar.receiver.frequency_ghz);
+    const double most_m2 = values::WorldMover::cross_section.high;
+    if (found_m2 > most_m2)
+      return ConstraintViolation{"", "a size with a cross section of at most " + number_text(most_m2) + " m2",
+                                 number_text(std::round(found_m2)) + " m2 of " + mover.name};
+  }
+  return std::nullopt;
+}
+
+FormSchema mover() {
+  FormSchema form = entry_form<radar::Mover>();
+  form.begin = begin_mover;
+  form.check = check_mover;
+  form.check_at_end = check_sizes;
+  form.end = [](ConfigurationBuilder& builder) {
+    radar::Mover read = entry_read<radar::Mover>(builder);
+    if (std::isnan(read.cross_section_m2)) read.cross_section_m2 = radar::Mover().cross_section_m2;
+    entries_of<radar::Mover>(builder).push_back(read);
+  };
+  // What gives the cross section is printed instead of it.
+  form.select = [](ConfigurationBuilder& builder, std::size_t index) {
+    radar::Mover& read = entry_read<radar::Mover>(builder) = entries_of<radar::Mover>(builder)[index];
+    if (!std::isnan(cross_section_by_size(read, 1.0))) read.cross_section_m2 = kNotGiven;
+  };
+  const auto whole = [](std::string_view name, double lowest, double highest, int& (*of)(ConfigurationBuilder&),
+                        std::string_view purpose) {
+    return SlotSchema{.name = name,
+                      .unit = "deg",
+                      .lowest = lowest,
+                      .highest = highest,
+                      .binding = IntegerSlot{of},
+                      .purpose = purpose};
+  };
+  form.slots.push_back(number_slot(
+      "displacement", "t", 1, 1e6,
+      {[](ConfigurationBuilder& builder) -> auto& { return entry_read<radar::Mover>(builder).displacement_t; }},
+      "full load displacement of a ship, from which its cross section follows; instead of crossSection"));
+  form.slots.push_back(
+      {.name = "echo",
+       .binding = ChoiceSlot{radar::kTargetEchoNames,
+                             [](const ConfigurationBuilder& builder) {
+                               return static_cast<int>(std::get<radar::Mover>(builder.entries.of).echo);
+                             },
+                             [](ConfigurationBuilder& builder, int index) {
+                               entry_read<radar::Mover>(builder).echo = static_cast<radar::TargetEcho>(index);
+                             }},
+       .purpose = "swerling1, swerling3: fluctuates from scan to scan, with noise of Fidelity, except in 1996; steady; "
+                  "trihedral, dihedral: a corner reflector, steady, with an aspect; left out: swerling1"});
+  form.slots.push_back(
+      number_slot("edge", "m", 0.01, 10,
+                  {[](ConfigurationBuilder& builder) -> auto& { return entry_read<radar::Mover>(builder).edge_m; }},
+                  "edge of a reflector, from which its cross section on the axis follows; instead of crossSection"));
+  form.slots.push_back(whole(
+      "facing", 0, 359,
+      [](ConfigurationBuilder& builder) -> auto& { return entry_read<radar::Mover>(builder).facing_deg; },
+      "true azimuth of a reflector's axis; left out: 0"));
+  form.slots.push_back(whole(
+      "tilt", -90, 90,
+      [](ConfigurationBuilder& builder) -> auto& { return entry_read<radar::Mover>(builder).tilt_deg; },
+      "elevation of a reflector's axis above the horizontal; left out: 0"));
+  return form;
+}
+
 // Words in the order of radar::SceneHeights.
 constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};
 
@@ -112,9 +208,17 @@ FormSchema scene() {
 
 }  // namespace
 
+void set_cross_sections(radar::RadarConfiguration& configuration) {
+  for (radar::Mover& mover : configuration.world.movers) {
+    const double by_size_m2 = cross_section_by_size(mover, configuration.receiver.frequency_ghz);
+    if (!std::isnan(by_size_m2)) mover.cross_section_m2 = by_size_m2;
+  }
+}
+
 std::vector<FormSchema> traffic_forms() {
   return {jammers(),
           jammer(),
+          mover(),
           {.name = "Scenes",
            .purpose = "polygonal scenes",
            .slots = {list_slot(

@@ -230,6 +230,7 @@ error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
     return tl::unexpected(parse_error.error);
   }
   loaded.radar = std::move(builder->whole);
+  set_cross_sections(loaded.radar);
   if (builder->has_network) loaded.network = std::move(builder->network);
   return loaded;
 }

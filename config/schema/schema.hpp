@@ -276,7 +276,7 @@ std::vector<FormSchema> model_forms();       // Fidelity, HighResolution, Receiv
 std::vector<FormSchema> route_forms();       // Route, Point
 std::vector<FormSchema> world_forms();       // Land, Materials, Material, Sea, Rain, Atmosphere
 std::vector<FormSchema> navigation_forms();  // Navigation
-std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Scenes, Scene
+std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Mover, Scenes, Scene
 std::vector<FormSchema> list_forms();        // of the lists of the world: two of each, as Movers and Mover
 std::vector<FormSchema> limit_forms();       // WindowLimits, HeightRanges
 std::vector<FormSchema> beacon_forms();      // Beacons, Beacon
@@ -288,6 +288,9 @@ std::optional<ConstraintViolation> check_windows_have_limits(const Configuration
 
 // Rule: the frequency of Receiver is within X band if the model of Sea is fitted to X band.
 std::optional<ConstraintViolation> check_sea_model(const ConfigurationBuilder& builder);
+
+// Sets the cross section of each mover that has a displacement or an edge instead, at the radar's frequency.
+void set_cross_sections(radar::RadarConfiguration& configuration);
 
 // Rule: latitude and longitude are given.
 std::optional<ConstraintViolation> check_coordinates(geo::GeoPoint position);

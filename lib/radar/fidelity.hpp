@@ -15,7 +15,7 @@ namespace yars::radar {
 
 // Number of the radar model. It increases when equal inputs give another picture. Recordings, data sets and hosts of
 // one session compare it: sweeps of different models are not comparable. 1: releases up to 0.4. 2: power of all visible
-// ground, mapping beam of csc^4, noise by range and pulse.
+// ground, mapping beam of csc^4, noise by range and pulse, movers that fluctuate.
 inline constexpr unsigned kModelNumber = 2;
 
 inline constexpr int kMaxSubBeams = 15;  // maximum of Fidelity::sub_beams; bounds the work of one sweep
@@ -44,20 +44,20 @@ struct Fidelity {
   // sweep, in the middle of its beam.
   int sub_beams = 4;
   bool slant_range = false;    // true: samples at equal steps of slant range; false: of ground range
-  bool noise = true;           // random fluctuation: speckle and texture of sweeps, speckle of maps
+  bool noise = true;           // random fluctuation: speckle, texture of sweeps, echoes of movers
   bool azimuth_smear = false;  // smear over three sweeps
   bool pulse_smear = true;     // smear over the pulse length
   BeamPattern beam = BeamPattern::mapping;
   bool diffraction = false;  // algorithm reference only: edges of shadows are soft
   // Parameters of patch maps.
-  int map_size = 480;              // [pixels] edge of the map; in a session at most 1024
-  int map_oversampling = 1;        // cells of the polar grid (range, azimuth) per pixel, in each direction, 1 to 4
-  bool map_layover = true;         // slant range geometry with layover; false: orthographic
-  bool map_response = true;        // impulse response with sidelobes
-  bool map_detail = true;          // synthetic texture finer than the posts
-  bool map_smooth_ground = true;   // smooth ground between posts if pixels are finer than posts; false: facets
-  bool map_double_bounce = false;  // reflection between walls and ground
-  double map_noise = 0.10;         // algorithm of preset 1996 only: random fraction of the brightness, [0, 1]
+  int map_size = 480;             // [pixels] edge of the map; in a session at most 1024
+  int map_oversampling = 1;       // cells of the polar grid (range, azimuth) per pixel, in each direction, 1 to 4
+  bool map_layover = true;        // slant range geometry with layover; false: orthographic
+  bool map_response = true;       // impulse response with sidelobes
+  bool map_detail = true;         // synthetic texture finer than the posts
+  bool map_smooth_ground = true;  // smooth ground between posts if pixels are finer than posts; false: facets
+  bool map_double_bounce = true;  // reflection between walls and ground
+  double map_noise = 0.10;        // algorithm of preset 1996 only: random fraction of the brightness, [0, 1]
 };
 
 // Names of the presets of lib/values/presets.idl, in ascending order of work.

@@ -51,6 +51,8 @@ enum class ScanWidth : std::uint8_t { full = 0, half = 1, quarter = 2 };
 enum class CursorFunction : std::uint8_t { map = 0, update = 1, cue = 2, target = 3, mark = 4 };
 enum class Navigator : std::uint8_t { mission = 0, ins = 1 };
 enum class PointKind : std::uint8_t { steer = 0, initial = 1, target = 2, steer_offset = 3, target_offset = 4 };
+// Echo of a mover: fluctuating as Swerling's cases 1 or 3 with `noise`, else steady; or a corner reflector's.
+enum class TargetEcho : std::uint8_t { swerling1 = 0, steady = 1, swerling3 = 2, trihedral = 3, dihedral = 4 };
 enum class Recall : std::uint8_t { none = 0, newest = 1, old = 2, store = 3 };
 
 // Settings of a configuration.
@@ -102,6 +104,14 @@ bool precedes(std::string_view left, std::string_view right);
 // Words for the kinds, in the order of PointKind.
 inline constexpr std::array<std::string_view, 5> kPointKindNames{"steer", "initial", "target", "steer-offset",
                                                                  "target-offset"};
+
+// Words for the echoes, in the order of TargetEcho.
+inline constexpr std::array<std::string_view, 5> kTargetEchoNames{"swerling1", "steady", "swerling3", "trihedral",
+                                                                  "dihedral"};
+
+constexpr bool is_reflector(TargetEcho echo) {
+  return echo == TargetEcho::trihedral || echo == TargetEcho::dihedral;
+}
 
 struct NamedPoint {
   PointName name;

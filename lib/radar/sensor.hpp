@@ -56,7 +56,7 @@ struct HighResolutionConfiguration {
   double dynamic_range_db = 45.0;      // [dB] power ratio of white to black, logarithmic receiver
   double brightest_gamma_db = 8.0;     // [dB] gamma of level ground that is drawn white
   double noise_gamma_db = -34.0;       // [dB] thermal noise at 20 NM, window 0.67 NM, as the gamma of level ground
-  double double_bounce_db = 6.0;       // [dB] double reflection by wall and ground, relative to the wall's return
+  double double_bounce_db = 6.0;       // [dB] double reflection by wall and ground, relative to the cardinal effect
   int default_material = 2;            // material code of scene faces without one; 2 = part metal
   double detail_contrast = 0.5;        // standard deviation of the natural logarithm of the ground texture's factor
 };

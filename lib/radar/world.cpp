@@ -30,7 +30,8 @@ bool same(const Jammer& a, const Jammer& b) {
 bool same(const Mover& a, const Mover& b) {
   return same(a.position, b.position) && same(a.speed_mps, b.speed_mps) && same(a.heading_deg, b.heading_deg) &&
          same(a.cross_section_m2, b.cross_section_m2) && same(a.height_m, b.height_m) &&
-         same(a.since.seconds(), b.since.seconds());
+         same(a.since.seconds(), b.since.seconds()) && a.echo == b.echo && a.facing_deg == b.facing_deg &&
+         a.tilt_deg == b.tilt_deg;
 }
 
 template <class Entries>

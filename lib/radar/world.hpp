@@ -119,7 +119,7 @@ struct BeaconConfiguration {
   std::vector<Beacon> beacons;
 };
 
-// Moving target: a point that follows a geodesic at constant speed.
+// Moving target or corner reflector: a point that follows a geodesic at constant speed.
 struct Mover {
   using Values = values::WorldMover;  // lib/values/fields.hpp
   std::string name;
@@ -129,6 +129,12 @@ struct Mover {
   double cross_section_m2 = values::WorldMoverDefaults::cross_section_m2;
   double height_m = values::WorldMoverDefaults::height_m;  // height of the scatterer above the ground
   geo::Duration since{};                                   // sim time; the configuration has 0
+  TargetEcho echo = TargetEcho::swerling1;
+  int facing_deg = 0;  // true azimuth of a reflector's axis
+  int tilt_deg = 0;    // elevation of a reflector's axis
+  // Given instead of the cross section, which the configuration then computes (lib/radar/cross_section.hpp).
+  double displacement_t = kNotGiven;  // [t] of a ship, full load
+  double edge_m = kNotGiven;          // of a reflector
 };
 
 // Polygonal scene of the OpenFlight format.

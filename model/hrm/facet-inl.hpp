@@ -145,10 +145,15 @@ HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   return hn::IfThenElse(smooth, ratio, set(1.0F));
 }
 
+// Gamma of walls: all of it, and the part that the cardinal effect adds.
+struct WallGamma {
+  Floats all, facing;
+};
+
 // Gamma of walls, raised by the cardinal effect (stronger return of walls that face the radar). The effect depends on
 // the horizontal angle between the normal of a wall and the line of sight. `cardinal`: effect at angle 0, relative to
 // gamma.
-HWY_INLINE Floats wall_gamma(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
+HWY_INLINE WallGamma wall_gamma(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
   const Tag d;
   const SignedTag di;
   const auto level = hn::Sqrt(hn::Add(hn::Mul(facet.across, facet.across), hn::Mul(facet.ahead, facet.ahead)));
@@ -163,7 +168,8 @@ HWY_INLINE Floats wall_gamma(const CardinalShape& shape, const Facet& facet, Flo
       hn::Add(low, hn::Mul(hn::Sub(hn::Min(position, hn::Add(last, set(1.0F))), floored), hn::Sub(high, low)));
   // Walls that face away from the radar get no cardinal effect.
   const auto faces_radar = hn::Lt(facet.ahead, hn::Zero(d));
-  return hn::Mul(gamma, hn::Add(set(1.0F), hn::IfThenElseZero(faces_radar, hn::Mul(cardinal, effect))));
+  const auto added = hn::IfThenElseZero(faces_radar, hn::Mul(cardinal, effect));
+  return {hn::Mul(gamma, hn::Add(set(1.0F), added)), hn::Mul(gamma, added)};
 }
 
 }  // namespace yars::model::hrm::simd::HWY_NAMESPACE

@@ -193,6 +193,7 @@ struct SurfacePoint {
 struct WallPoint {
   std::uint32_t returned_steps = 0;  // sum of gamma times height
   std::uint32_t height_steps = 0;    // sum of heights
+  std::uint32_t facing_steps = 0;    // as returned_steps, but of the cardinal effect alone
 };
 inline constexpr float kWallStep_m = 1.0F / 4096.0F;  // [m] 0.24 mm; sums are limited to 2^31 steps, 524 km
 

@@ -32,7 +32,7 @@ void splat(const Response& response, double column, double row, double power, Ma
 }  // namespace
 
 MapMovers::MapMovers(const physics::RadarParameters& parameters)
-    : gas_(parameters), points_(physics::moving_points(parameters.world)) {}
+    : gas_(parameters), target_echoes_(parameters), points_(physics::moving_points(parameters.world)) {}
 
 MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const PatchOrder& order,
                                      const PatchGeometry& geometry, geo::Duration formation, double height_m) const {
@@ -139,7 +139,12 @@ void MapMovers::draw_point(const Target& target, const PatchOrder& order, const 
   const int steps = 1 + static_cast<int>(std::min(std::ceil(length_m / pixel_m), 4.0 * image.size));
   const double loss =
       gas_.two_way_transmission(geometry.earth(), geometry.altitude_m(), target.distance_m(), target.ground_m);
-  const double power = loss * target.mover->cross_section_m2 / (unit_return_m2(geometry, image.size) * steps);
+  const double cross_section_m2 = target_echoes_.cross_section_m2(target.mover->target, order.map, [&] {
+    const double height_msl_m = target.height_m + geometry.plane_msl_m();
+    const physics::Sight sight = geometry.earth().sight(geometry.altitude_m(), target.distance_m(), height_msl_m);
+    return physics::aspect_of(target.mover->position(order.sim_time), order.apex, sight);
+  });
+  const double power = loss * cross_section_m2 / (unit_return_m2(geometry, image.size) * steps);
   for (int step = 0; step < steps; ++step) {
     const double fraction = (step + 0.5) / steps;
     const double right_m = trace.from.right_m + fraction * (trace.to.right_m - trace.from.right_m);

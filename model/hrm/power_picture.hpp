@@ -75,6 +75,7 @@ class MapMovers {
   bool hidden(const PatchGeometry& geometry, const Horizons& horizons, const Target& target) const;
 
   physics::GasPath gas_;
+  physics::TargetEchoes target_echoes_;
   std::vector<physics::MovingPoint> points_;
   std::vector<Target> targets_;  // of the current map
 };

@@ -179,24 +179,26 @@ struct Walls {
   Mask present;
   Floats fraction;  // fraction of the climb between the points that is wall
   Floats gamma;
+  Floats facing_gamma;  // the part of gamma that the cardinal effect adds
 };
 
 HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb_m, float step_m) {
   const Tag d;
   const SignedTag di;
   const auto one = hn::Set(d, 1.0F);
-  if (strip.walls == nullptr) return {hn::Lt(one, one), hn::Zero(d), hn::Zero(d)};
+  if (strip.walls == nullptr) return {hn::Lt(one, one), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   const hn::RebindToUnsigned<Tag> db;
-  hn::Vec<decltype(db)> steps_returned, steps_high;
-  hn::LoadInterleaved2(db, &strip.walls[at].returned_steps, steps_returned, steps_high);
+  hn::Vec<decltype(db)> steps_returned, steps_high, steps_facing;
+  hn::LoadInterleaved3(db, &strip.walls[at].returned_steps, steps_returned, steps_high, steps_facing);
   const auto height = hn::ConvertTo(d, hn::BitCast(di, steps_high));
   const auto present = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb_m, hn::Set(d, kMinStep * step_m)));
-  if (hn::AllFalse(d, present)) return {present, hn::Zero(d), hn::Zero(d)};
+  if (hn::AllFalse(d, present)) return {present, hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   const auto sum = hn::ConvertTo(d, hn::BitCast(di, steps_returned));
+  const auto facing = hn::ConvertTo(d, hn::BitCast(di, steps_facing));
   const auto wall_steps = hn::IfThenElse(present, height, one);
   const auto fraction =
       hn::Min(hn::Div(hn::Mul(wall_steps, hn::Set(d, kWallStep_m)), hn::IfThenElse(present, climb_m, one)), one);
-  return {present, fraction, hn::Div(sum, wall_steps)};
+  return {present, fraction, hn::Div(sum, wall_steps), hn::Div(facing, wall_steps)};
 }
 
 HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
@@ -265,8 +267,9 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   if (!(strip.double_bounce > 0.0F)) return;
   const auto foot = hn::And(walls.present, fully_visible);
   if (hn::AllFalse(d, foot)) return;
-  // The double bounce path over wall and ground is as long as the path to the wall's foot and back.
-  const auto bounce = hn::Mul(hn::Mul(face, walls.gamma), hn::Set(d, strip.double_bounce / kMinExtent));
+  // The double bounce path over wall and ground is as long as the path to the wall's foot and back. It has the aspect
+  // of the cardinal effect.
+  const auto bounce = hn::Mul(hn::Mul(face, walls.facing_gamma), hn::Set(d, strip.double_bounce / kMinExtent));
   add_by_lane<false>(strip, lane,
                      {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce), row});
 }
@@ -279,9 +282,12 @@ HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
   const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
   std::uint32_t* const first = &strip.walls[at].returned_steps;
   std::uint32_t* const second = first + hn::Lanes(db);
-  if (hn::AllTrue(db, hn::Eq(hn::Or(hn::Load(db, first), hn::Load(db, second)), hn::Zero(db)))) return;
+  std::uint32_t* const third = second + hn::Lanes(db);
+  const auto any = hn::Or(hn::Or(hn::Load(db, first), hn::Load(db, second)), hn::Load(db, third));
+  if (hn::AllTrue(db, hn::Eq(any, hn::Zero(db)))) return;
   hn::Store(hn::Zero(db), db, first);
   hn::Store(hn::Zero(db), db, second);
+  hn::Store(hn::Zero(db), db, third);
 }
 
 template <bool kLabels>

@@ -297,13 +297,15 @@ void Reference::add_facet(const Face& face, Point3 point, Point3 weights, double
     return;
   }
   const double across = normal.x * out_ahead - normal.y * out_right;
-  const double power = surface_.wall_gamma(face.code, across, towards) * area_m2 * facing;
-  add(point, power);
-  if (!(bounce_ > 0.0)) return;
-  // The double bounce path over wall and ground is as long as the path to the wall's foot and back.
+  const double gamma = surface_.wall_gamma(face.code, across, towards);
+  add(point, gamma * area_m2 * facing);
+  const double bounced = bounce_ * (gamma - surface_.gamma(face.code)) * area_m2 * facing;
+  if (!(bounced > 0.0)) return;
+  // The double bounce path over wall and ground is as long as the path to the wall's foot and back. It has the aspect
+  // of the cardinal effect.
   const Ground below = ground_at(point);
   const Point3 foot = position(below.distance_m - kFoot_m, std::atan2(point.x, point.y), below.height_m);
-  if (seen(foot)) add(foot, bounce_ * power);
+  if (seen(foot)) add(foot, bounced);
 }
 
 // Returns the point with its distance over ground and height. The ground gets height 0 (the map plane) and a

@@ -66,14 +66,15 @@ struct Fragments {
     wall_at.resize(2 * wall_at.size() + kMinCapacity);
     wall_height.resize(wall_at.size());
     wall_return.resize(wall_at.size());
+    wall_facing.resize(wall_at.size());
   }
 
   static constexpr std::size_t kMinCapacity = 4096;
-  std::vector<std::uint32_t> at, wall_at;               // PolarGrid::at()
-  std::vector<std::uint32_t> height;                    // ordered_bits() of the height (small_triangles-inl.hpp)
-  std::vector<float> gamma;                             // negated gamma of the surface, as in SurfacePoint
-  std::vector<std::uint32_t> label;                     // of the surface, if SceneArrays::label is not null
-  std::vector<std::uint32_t> wall_height, wall_return;  // in steps of kWallStep_m, as in WallPoint
+  std::vector<std::uint32_t> at, wall_at;  // PolarGrid::at()
+  std::vector<std::uint32_t> height;       // ordered_bits() of the height (small_triangles-inl.hpp)
+  std::vector<float> gamma;                // negated gamma of the surface, as in SurfacePoint
+  std::vector<std::uint32_t> label;        // of the surface, if SceneArrays::label is not null
+  std::vector<std::uint32_t> wall_height, wall_return, wall_facing;  // in steps of kWallStep_m, as in WallPoint
 };
 
 // Sets SurfacePoint::gamma of the ground below the triangles. Where triangles overlap, the last one wins. Grid points

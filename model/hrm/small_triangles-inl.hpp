@@ -105,11 +105,12 @@ class SmallTriangles {
   // the column's profile (profile_simd.hpp) steps up. `gamma` of the wall is scaled by width / number of columns
   // crossed. A wall narrower than a column is not scaled: the probability that it crosses the centre of a column equals
   // its width in columns.
-  void draw_walls(const Triangle& triangle, Floats gamma, const std::uint32_t* label, Mask active) {
+  void draw_walls(const Triangle& triangle, WallGamma gamma, const std::uint32_t* label, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);
     const auto columns = hn::Sub(hn::Ceil(triangle.right.column), hn::Ceil(triangle.left.column));
-    gamma = hn::IfThenElse(hn::Lt(width, set(1.0F)), gamma, hn::Mul(gamma, hn::Div(width, columns)));
+    const auto scale = hn::IfThenElse(hn::Lt(width, set(1.0F)), set(1.0F), hn::Div(width, columns));
+    gamma = {hn::Mul(gamma.all, scale), hn::Mul(gamma.facing, scale)};
     const auto rows = set(static_cast<float>(canvas_.grid->rows));
     const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
     auto column = hn::Max(hn::Ceil(triangle.left.column), set(canvas_.limits.first_column));
@@ -127,7 +128,7 @@ class SmallTriangles {
       const auto at = index_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
       add_wall_fragment(at, wall_height_m, gamma, wanted);
       // The top of a wall is drawn as a surface, for walls without a roof. A roof is higher and replaces this surface.
-      add_fragment(at, hn::Sub(hn::Max(on_long_edge, on_short_edge), set(kUnderRoof_m)), gamma, label, wanted);
+      add_fragment(at, hn::Sub(hn::Max(on_long_edge, on_short_edge), set(kUnderRoof_m)), gamma.all, label, wanted);
     }
   }
 
@@ -149,10 +150,12 @@ class SmallTriangles {
       WallPoint& point = canvas_.arrays.walls[fragments_.wall_at[i]];
       point.height_steps += fragments_.wall_height[i];
       point.returned_steps += fragments_.wall_return[i];
-      if (((point.height_steps | point.returned_steps) & ~kFullWall) == 0) [[likely]]
+      point.facing_steps += fragments_.wall_facing[i];
+      if (((point.height_steps | point.returned_steps | point.facing_steps) & ~kFullWall) == 0) [[likely]]
         continue;
       point.height_steps = std::min(point.height_steps, kFullWall);
       point.returned_steps = std::min(point.returned_steps, kFullWall);
+      point.facing_steps = std::min(point.facing_steps, kFullWall);
     }
     count_ = walls_ = 0;
   }
@@ -169,7 +172,7 @@ class SmallTriangles {
       hn::StoreU(hn::Compress(hn::Load(db, label), mask), db, &fragments_.label[count_]);
     count_ += hn::CountTrue(Tag(), wanted);
   }
-  void add_wall_fragment(Bits at, Floats wall_height_m, Floats gamma, Mask wanted) {
+  void add_wall_fragment(Bits at, Floats wall_height_m, WallGamma gamma, Mask wanted) {
     const BitsTag db;
     const SignedTag di;
     if (fragments_.wall_at.size() < walls_ + kStripColumns) fragments_.grow_walls();
@@ -180,7 +183,8 @@ class SmallTriangles {
     const auto mask = hn::RebindMask(db, wanted);
     hn::StoreU(hn::Compress(at, mask), db, &fragments_.wall_at[walls_]);
     hn::StoreU(hn::Compress(steps(wall_height_m), mask), db, &fragments_.wall_height[walls_]);
-    hn::StoreU(hn::Compress(steps(hn::Mul(wall_height_m, gamma)), mask), db, &fragments_.wall_return[walls_]);
+    hn::StoreU(hn::Compress(steps(hn::Mul(wall_height_m, gamma.all)), mask), db, &fragments_.wall_return[walls_]);
+    hn::StoreU(hn::Compress(steps(hn::Mul(wall_height_m, gamma.facing)), mask), db, &fragments_.wall_facing[walls_]);
     walls_ += hn::CountTrue(Tag(), wanted);
   }
 

@@ -101,7 +101,9 @@ void SweepChain::receive(Measured& measured, const physics::Environment& environ
   } else if (is_beacon(labels)) {
     beacons_.measure(geometry, environment.terrain, measured.power);
   } else {
-    const std::size_t pending = beam_.measure(geometry, environment, measured.power);
+    physics::Environment in_scan = environment;
+    in_scan.scan = labels.scan;
+    const std::size_t pending = beam_.measure(geometry, in_scan, measured.power);
     posts_pending_ += pending;
     if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
     flag_descendant(measured.labels);

@@ -49,6 +49,10 @@ bool requests_scan(const databuffer::RadarCommand& command) {
          command.range_nm >= kMinRange_nm && command.range_nm <= kMaxRange_nm;
 }
 
+namespace {
+constexpr std::uint64_t kTrafficNumbers = 1ULL << 32U;  // PointTarget::number of traffic is beyond those of movers
+}  // namespace
+
 std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic) {
   const geo::Duration start = sim_time_of(traffic.tick * radar::kTickNanoseconds);
   const auto count = std::min<std::size_t>(traffic.count, databuffer::kMaxTraffic);
@@ -56,11 +60,12 @@ std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic) 
   points.reserve(count);
   for (const databuffer::TrafficEntity& entity : std::span(traffic.entities).first(count)) {
     const auto heading = geo::Bearing::radians(std::atan2(entity.velocity_east_mps, entity.velocity_north_mps));
-    points.push_back(physics::moving_point({{entity.latitude_deg, entity.longitude_deg},
-                                            heading,
-                                            std::hypot(entity.velocity_north_mps, entity.velocity_east_mps),
-                                            start},
-                                           entity.cross_section_m2, entity.height_m));
+    points.push_back(physics::moving_point(
+        {{entity.latitude_deg, entity.longitude_deg},
+         heading,
+         std::hypot(entity.velocity_north_mps, entity.velocity_east_mps),
+         start},
+        {.cross_section_m2 = entity.cross_section_m2, .number = kTrafficNumbers + entity.id}, entity.height_m));
   }
   return points;
 }

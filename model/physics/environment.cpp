@@ -18,10 +18,10 @@ geo::Vector3 on_ellipsoid(geo::GeoPoint position) {
 }
 }  // namespace
 
-MovingPoint moving_point(const Course& course, double cross_section_m2, double height_m) {
+MovingPoint moving_point(const Course& course, const PointTarget& target, double height_m) {
   return {geo::GeodesicRay(course.start, course.heading),
           course.speed_mps,
-          cross_section_m2,
+          target,
           height_m,
           course.since,
           on_ellipsoid(course.start)};
@@ -30,14 +30,17 @@ MovingPoint moving_point(const Course& course, double cross_section_m2, double h
 std::vector<MovingPoint> moving_points(const radar::WorldConfiguration& world) {
   std::vector<MovingPoint> points;
   for (const radar::Mover& mover : world.movers)
-    points.push_back(
-        moving_point({mover.position, geo::Bearing::degrees(mover.heading_deg), mover.speed_mps, mover.since},
-                     mover.cross_section_m2, mover.height_m));
+    points.push_back(moving_point(
+        {mover.position, geo::Bearing::degrees(mover.heading_deg), mover.speed_mps, mover.since},
+        {mover.cross_section_m2, mover.echo, points.size(), mover.facing_deg, mover.tilt_deg}, mover.height_m));
   return points;
 }
 
 Movers::Movers(const RadarParameters& parameters)
-    : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference), beam_(parameters.beam), gas_(parameters) {
+    : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference),
+      beam_(parameters.beam),
+      gas_(parameters),
+      target_echoes_(parameters) {
   use_movers(parameters);
 }
 
@@ -113,7 +116,7 @@ std::span<const Echo> Movers::echoes(const SweepGeometry& geometry, const Receiv
   const AzimuthInterval interval = point_interval(geometry.sharpened_cell, receiver.azimuth_beamwidth_rad);
   if (!(interval.left_rad < interval.right_rad)) return echoes_;
   const Sector sector(geometry, receiver.azimuth_beamwidth_rad);
-  const Sweep sweep{geometry, receiver, earth, environment.terrain};
+  const Sweep sweep{geometry, receiver, earth, environment.terrain, environment.scan};
   const auto run_m = [&](const MovingPoint& point, geo::Duration since) {
     return point.speed_mps * std::abs((geometry.sim_time - since).seconds());
   };
@@ -132,7 +135,7 @@ std::span<const Echo> Movers::echoes(const SweepGeometry& geometry, const Receiv
 }
 
 void Movers::add_echo(std::size_t number, const MovingPoint& point, const Sector& sector, const Sweep& sweep) {
-  const auto& [geometry, receiver, earth, terrain] = sweep;
+  const auto& [geometry, receiver, earth, terrain, scan] = sweep;
   const geo::GeoPoint position = point.position(geometry.sim_time);
   std::optional<Sector::Path> path;
   if (!exact_) path = sector.path_to(position);
@@ -150,9 +153,11 @@ void Movers::add_echo(std::size_t number, const MovingPoint& point, const Sector
   const double gain = gain_across * two_way_gain(beam_, receiver.elevation_beamwidth_rad, geometry.elevation.radians(),
                                                  sight.elevation_rad);
   const double loss = gas_.two_way_transmission(earth, geometry.altitude.metres(), distance_m, height_m);
-  const double power = returned_power(point.cross_section_m2, loss * gain, sight.slant_range_m);
-  echoes_.push_back({number, position, point.height_m, distance_m, sight.slant_range_m, offset_rad,
-                     received(receiver, power, sight.slant_range_m)});
+  const double cross_section_m2 = target_echoes_.cross_section_m2(
+      point.target, scan, [&, apex = geometry.apex] { return aspect_of(position, apex, sight); });
+  const double power = returned_power(cross_section_m2, loss * gain, sight.slant_range_m);
+  echoes_.push_back(
+      {number, position, point.height_m, distance_m, sight.slant_range_m, offset_rad, received(receiver, power, sight.slant_range_m)});
 }
 
 namespace {

@@ -6,6 +6,7 @@
 // Source: docs/spec/physics.md#power (radar equation of a point).
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
+#include "model/physics/target_echo.hpp"
 #include "model/scene/placement/scene_view.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
@@ -25,7 +27,7 @@ namespace yars::model::physics {
 struct MovingPoint {
   geo::GeodesicRay way;
   double speed_mps = 0.0;
-  double cross_section_m2 = 0.0;
+  PointTarget target{};
   double height_m = 0.0;    // above the ground
   geo::Duration since{};    // sim time at the start of `way`
   geo::Vector3 start_ecef;  // [m] start of `way`, on the ellipsoid
@@ -42,9 +44,9 @@ struct Course {
   double speed_mps = 0.0;
   geo::Duration since{};  // sim time at the start
 };
-MovingPoint moving_point(const Course& course, double cross_section_m2, double height_m);
+MovingPoint moving_point(const Course& course, const PointTarget& target, double height_m);
 
-// Movers of a world.
+// Movers of a world. The number of a mover's target is its index.
 std::vector<MovingPoint> moving_points(const radar::WorldConfiguration& world);
 
 // Terrain, polygonal scenes and external traffic of one sweep or map. Keeps references to its arguments.
@@ -58,6 +60,7 @@ struct Environment {
   const scene::SceneView* scenes;  // null: none
   bool scenes_ready;               // false: some needed scene is still being read
   std::span<const MovingPoint> traffic;
+  std::uint32_t scan = 1;  // number of the scan, for which echoes of movers are drawn
 };
 
 // Unobstructed return of one mover.
@@ -103,12 +106,14 @@ class Movers {
     const Receiver& receiver;
     const EffectiveEarth& earth;
     const terrain::TerrainView& terrain;
+    std::uint32_t scan;
   };
   void add_echo(std::size_t number, const MovingPoint& point, const Sector& sector, const Sweep& sweep);
 
   bool exact_;  // azimuth and distance of the geodesic
   radar::BeamPattern beam_;
   GasPath gas_;
+  TargetEchoes target_echoes_;
   std::vector<MovingPoint> points_;
   std::vector<Fix> fixes_;  // of points_, renewed after kMaxRun_m; they only limit the search
   std::vector<Echo> echoes_;

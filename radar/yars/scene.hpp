@@ -35,7 +35,7 @@ struct Mover {
   double longitude_deg = 0.0;
   double heading_deg = 0.0;          // true
   double speed_kt = 0.0;             // over ground
-  double cross_section_m2 = 1000.0;  // radar cross section
+  double cross_section_m2 = 1000.0;  // radar cross section; with noise the mean of Swerling 1
   double height_m = 6.096;           // of the reflecting point above the ground
 };
 

@@ -97,7 +97,8 @@ inline auto fields(const radar::Jammer& jammer) {
   return std::tuple(jammer.name, given(jammer), jammer.band, jammer.channels);
 }
 inline auto fields(const radar::Mover& mover) {
-  return std::tuple(mover.name, given(mover), mover.since / geo::Duration::seconds(1.0));
+  return std::tuple(mover.name, given(mover), mover.since / geo::Duration::seconds(1.0), mover.echo, mover.facing_deg,
+                    mover.tilt_deg, comparable(mover.displacement_t), comparable(mover.edge_m));
 }
 template <class Entry>
   requires requires { Entry::Values::list; }

@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "lib/radar/configuration.hpp"
+#include "lib/radar/cross_section.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/receiver.hpp"
+#include "model/physics/target_echo.hpp"
 #include "model/rbm/emitters.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/physics/decibels.hpp"
@@ -33,28 +36,37 @@ const model::terrain::AnalyticTerrain& sea() {
   return terrain;
 }
 
-// Flat earth without gases and sensitivity time control.
+// Flat earth without gases, sensitivity time control and noise.
 radar::RadarConfiguration plain() {
   radar::RadarConfiguration configuration;
   configuration.fidelity.earth = radar::EarthModel::flat;
   configuration.world.atmosphere.gases = false;
   configuration.receiver.stc_exponent = 0.0;
+  configuration.fidelity.noise = false;
   return configuration;
+}
+
+// Powers of a mover in successive scans; full scale = 1.
+std::vector<double> echoes_of(const radar::Mover& mover, radar::RadarConfiguration configuration, std::uint32_t scans) {
+  configuration.world.movers.push_back(mover);
+  physics::Movers movers(configuration);
+  const physics::Receiver receiver = physics::Receivers(configuration).at(ahead().range);
+  const auto earth = physics::effective_earth(configuration, ahead());
+  physics::Environment environment(sea());
+  std::vector<double> powers;
+  for (environment.scan = 1; environment.scan <= scans; ++environment.scan)
+    for (const physics::Echo& echo : movers.echoes(ahead(), receiver, earth, environment)) powers.push_back(echo.power);
+  return powers;
+}
+double echo_of(const radar::Mover& mover) {
+  const auto powers = echoes_of(mover, plain(), 1);
+  return powers.empty() ? 0.0 : powers[0];
 }
 
 // Powers of a target, a jammer and a beacon's reply at the aircraft's height, in the middle of the beam; full scale
 // = 1.
 double target(double distance_m, double cross_section_m2) {
-  radar::RadarConfiguration configuration = plain();
-  radar::Mover mover;
-  mover.position = north(distance_m);
-  mover.height_m = kAltitude_m;
-  mover.cross_section_m2 = cross_section_m2;
-  configuration.world.movers.push_back(mover);
-  physics::Movers movers(configuration);
-  const physics::Receiver receiver = physics::Receivers(configuration).at(ahead().range);
-  const auto echoes = movers.echoes(ahead(), receiver, physics::effective_earth(configuration, ahead()), sea());
-  return echoes.size() == 1 ? echoes[0].power : 0.0;
+  return echo_of({.position = north(distance_m), .cross_section_m2 = cross_section_m2, .height_m = kAltitude_m});
 }
 
 double jammer(double distance_m, double power_w) {
@@ -124,6 +136,96 @@ TEST(Truth, ABeaconsDelayOfARadarMileIsAMile) {
   expect_row({"Emitters", "range added to a reply by 12.36 µs of delay", 1.0, 0.001, "NM",
               "radar mile of 12.36 µs, Skolnik, Introduction to Radar Systems", "the delay has four digits"},
              geo::Length::metres(beacon(30e3, 100.0, 12.36).slant_range_m - 30e3).nautical_miles());
+}
+
+// ---- Fluctuation, ships, corner reflectors
+TEST(Truth, AFluctuatingTargetHasSwerlingsQuantiles) {
+  constexpr std::uint32_t kScans = 100'000;
+  const double steady = target(30e3, 10.0);
+  radar::RadarConfiguration noisy = plain();
+  noisy.fidelity.noise = true;
+  struct Case {
+    radar::TargetEcho echo;
+    std::string name, law;
+    std::vector<double> quantiles_db;
+  };
+  const std::string source = ", Swerling 1954, RAND RM-1217";
+  for (const Case& one : {Case{radar::TargetEcho::swerling1, "Swerling 1", "exponential", {-9.7732, -1.5917, 3.6222}},
+                          {radar::TargetEcho::swerling3,
+                           "Swerling 3",
+                           "chi-square of 4 degrees of freedom",
+                           {-5.7527, -0.7615, 2.8889}}}) {
+    auto powers = echoes_of(
+        {.position = north(30e3), .cross_section_m2 = 10.0, .height_m = kAltitude_m, .echo = one.echo}, noisy, kScans);
+    ASSERT_EQ(powers.size(), kScans);
+    std::ranges::sort(powers);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string quantile = std::vector<std::string>{"0.1", "0.5", "0.9"}[i];
+      const double share = std::vector<double>{0.1, 0.5, 0.9}[i];
+      expect_row({"Targets", one.name + ", quantile " + quantile + " over mean", one.quantiles_db[i], 0.15, "dB",
+                  one.law + source, "chance: 100,000 scans"},
+                 model::decibels(powers[static_cast<std::size_t>(share * kScans)] / steady));
+    }
+    double sum = 0.0;
+    for (const double power : powers) sum += power;
+    expect_row({"Targets", one.name + ", mean over the steady target", 1.0, 0.02, "", one.law + source,
+                "chance: 100,000 scans"},
+               sum / kScans / steady);
+  }
+}
+
+TEST(Truth, AShipHasTheCrossSectionOfItsDisplacement) {
+  for (const auto& [name, displacement_t, outside] :
+       {std::tuple("1 kt", 1e3, 37.0939), {"10 kt", 1e4, 52.0939}, {"100 kt", 1e5, 67.0939}})
+    expect_row({"Targets", std::string("ship of ") + name + " at 9.7 GHz", outside, 0.001, "dBsm",
+                "52 √f[MHz] D[kt]^1.5 m², Skolnik 1974, IEEE Trans. AES-10", "closed form"},
+               model::decibels(radar::ship_cross_section_m2(displacement_t, 9.7)));
+}
+
+// Full width at half power [deg] of a reflector's gain in a plane through its axis.
+double half_power_width_deg(const physics::PointTarget& target, bool level) {
+  double inside = 0.0, outside = 1.0;
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (inside + outside);
+    const physics::Aspect aspect = level ? physics::Aspect{middle, 0.0} : physics::Aspect{0.0, middle};
+    (physics::reflector_gain(target, 9.7, aspect) > 0.5 ? inside : outside) = middle;
+  }
+  return 2.0 * inside / geo::kRadiansPerDegree;
+}
+
+TEST(Truth, ACornerReflectorHasAnAspect) {
+  using radar::TargetEcho;
+  const std::string trihedral = "4π a⁴ / 3λ², Doerry, Reflectors for SAR performance testing, Sandia";
+  const std::string dihedral = "8π a² b² / λ², Knott, Shaeffer and Tuley, Radar Cross Section";
+  const double triple_m2 = radar::reflector_cross_section_m2(TargetEcho::trihedral, 0.5, 9.7);
+  const double double_m2 = radar::reflector_cross_section_m2(TargetEcho::dihedral, 0.5, 9.7);
+  expect_row(
+      {"Targets", "trihedral of 0.5 m at 9.7 GHz, on its axis", 24.3787, 0.001, "dBsm", trihedral, "closed form"},
+      model::decibels(triple_m2));
+  expect_row({"Targets", "dihedral of 0.5 m at 9.7 GHz, on its axis", 32.1602, 0.001, "dBsm", dihedral, "closed form"},
+             model::decibels(double_m2));
+  const auto level_of = [&](TargetEcho echo, double cross_section_m2, int facing_deg, int tilt_deg) {
+    return model::decibels(echo_of({.position = north(30e3),
+                                    .cross_section_m2 = cross_section_m2,
+                                    .height_m = kAltitude_m,
+                                    .echo = echo,
+                                    .facing_deg = facing_deg,
+                                    .tilt_deg = tilt_deg}) /
+                           target(30e3, cross_section_m2));
+  };
+  expect_row({"Targets", "trihedral, 20° beside its axis over the axis", -3.2136, 0.001, "dB",
+              "(3 cos α − 2 / cos α)², " + trihedral, "closed form"},
+             level_of(TargetEcho::trihedral, triple_m2, 160, 0));
+  expect_row({"Targets", "dihedral, 15° below its axis over the axis", -3.0103, 0.001, "dB",
+              "(cos ε − sin ε)², " + dihedral, "closed form"},
+             level_of(TargetEcho::dihedral, double_m2, 180, 15));
+  expect_row({"Targets", "half-power width of a trihedral beside its axis", 38.9424, 0.001, "°",
+              "2 asin 1/3 of (3 cos α − 2 / cos α)², " + trihedral, "closed form"},
+             half_power_width_deg({triple_m2, TargetEcho::trihedral}, true));
+  expect_row({"Targets", "half-power width of a dihedral of 0.5 m along its seam, 9.7 GHz", 1.5688, 0.001, "°",
+              "sinc² of 2a / λ sin α, " + dihedral, "closed form"},
+             half_power_width_deg({double_m2, TargetEcho::dihedral}, true));
+  EXPECT_EQ(level_of(TargetEcho::trihedral, triple_m2, 120, 0), model::decibels(0.0)) << "outside the octant";
 }
 
 // Distance to the right of its true position at which a mover that recedes at 5 m/s appears on a patch map.

@@ -29,7 +29,16 @@ radar::WorldConfiguration configured() {
   world.sea.wind_from_deg = 123.4;
   world.rain.cells = {{{37.1, -122.1}, 9000.0, 20.0, 6000.0}};
   world.jamming.jammers = {{"noise", {37.2, -122.2}, 300.0, 2, {1, 4, 8}, 55.0}};
-  world.movers = {{"ship", {37.3, -122.3}, 9.0, 45.0, 5000.0, 12.0, geo::Duration::seconds(1.5)}};
+  world.movers = {{"ship",
+                   {37.3, -122.3},
+                   9.0,
+                   45.0,
+                   5000.0,
+                   12.0,
+                   geo::Duration::seconds(1.5),
+                   radar::TargetEcho::trihedral,
+                   40,
+                   -10}};
   return world;
 }
 
@@ -315,6 +324,19 @@ TEST(WorldPoints, ARecordWithWrongNamesOrKindsIsInvalid) {
   EXPECT_NE(refusal([](databuffer::WorldState& world) { world.points[1].id = 1; }).find("points[1].id"),
             std::string::npos);
   EXPECT_NE(refusal([](databuffer::WorldState& world) { world.point_count = 257; }).find("point_count"),
+            std::string::npos);
+}
+
+TEST(WorldEdit, ARecordWithAnUnknownEchoOrAxisIsInvalid) {
+  const auto refusal = [](auto change) {
+    databuffer::WorldState world = a_world();
+    change(world.movers[0]);
+    return databuffer::validate(world).value_or("valid");
+  };
+  EXPECT_EQ(refusal([](databuffer::WorldMover&) {}), "valid");
+  EXPECT_NE(refusal([](databuffer::WorldMover& mover) { mover.echo = 5; }).find("echo"), std::string::npos);
+  EXPECT_NE(refusal([](databuffer::WorldMover& mover) { mover.tilt_deg = 91; }).find("tilt_deg"), std::string::npos);
+  EXPECT_NE(refusal([](databuffer::WorldMover& mover) { mover.facing_deg = 360; }).find("facing_deg"),
             std::string::npos);
 }
 

@@ -74,6 +74,12 @@ std::string others_of(const Entry& /*entry*/) {
 std::string others_of(const databuffer::WorldJammer& jammer) {
   return std::string(", band ") + world::band_name(jammer.band);
 }
+std::string others_of(const databuffer::WorldMover& mover) {
+  std::string text = ", " + std::string(world::echo_name(mover));
+  if (radar::is_reflector(static_cast<radar::TargetEcho>(mover.echo)))
+    text += ", facing " + std::to_string(mover.facing_deg) + " deg, tilt " + std::to_string(mover.tilt_deg) + " deg";
+  return text;
+}
 std::string others_of(const databuffer::WorldPoint& point) {
   return ", " + std::string(world::kind_name(point));
 }
@@ -233,6 +239,30 @@ struct OtherOptions<databuffer::WorldJammer> {
     if (!band.empty()) jammer.band = band == "all" ? radar::kEveryBand : band.front() - 'A';
     if (!channels.empty()) jammer.channels = 0;
     for (const double channel : channels) jammer.channels |= 1U << (static_cast<unsigned>(channel) - 1U);
+  }
+};
+
+template <>
+struct OtherOptions<databuffer::WorldMover> {
+  std::string echo;
+  std::optional<int> facing_deg, tilt_deg;
+  void add(runtime::Command command, const std::string& otherwise) {
+    const std::vector<std::string> echoes(radar::kTargetEchoNames.begin(), radar::kTargetEchoNames.end());
+    command.option("--echo", echo, "fluctuation from scan to scan, or a corner reflector")
+        .one_of(echoes)
+        .otherwise(otherwise.empty() ? echoes.front() : otherwise);
+    command.option("--facing", facing_deg, "[deg] true azimuth of a reflector's axis")
+        .range(0, 359)
+        .otherwise(otherwise.empty() ? "0" : otherwise);
+    command.option("--tilt", tilt_deg, "[deg] elevation of a reflector's axis")
+        .range(-90, 90)
+        .otherwise(otherwise.empty() ? "0" : otherwise);
+  }
+  void write(databuffer::WorldMover& mover) const {
+    const auto found = std::ranges::find(radar::kTargetEchoNames, echo);
+    if (!echo.empty()) mover.echo = static_cast<std::uint8_t>(found - radar::kTargetEchoNames.begin());
+    if (facing_deg) mover.facing_deg = static_cast<std::uint16_t>(*facing_deg);
+    if (tilt_deg) mover.tilt_deg = static_cast<std::int8_t>(*tilt_deg);
   }
 };
 

@@ -31,6 +31,7 @@ export interface Mover {
   heading_deg: number;
   cross_section_m2: number;
   height_ft: number;
+  echo: string;
 }
 export interface Point {
   id: number;
@@ -88,7 +89,7 @@ export const FIELDS = {
     heading: { name: "heading_deg", label: "Heading", unit: "deg", min: -360, max: 360,
       purpose: "true heading at the beginning; later the direction of the great circle", otherwise: "" },
     cross_section: { name: "cross_section_m2", label: "Cross section", unit: "m2", min: 0, max: 1e7,
-      purpose: "radar cross section", otherwise: "" },
+      purpose: "radar cross section: mean, or on the axis of a reflector", otherwise: "" },
     height: { name: "height_ft", label: "Height", unit: "ft", min: 0, max: 3281,
       purpose: "height of the reflecting point above the ground or water", otherwise: "" },
   },

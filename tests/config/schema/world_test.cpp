@@ -178,6 +178,45 @@ TEST(Movers, HaveAPositionASpeedAndAHeading) {
   EXPECT_THAT(refusal("( Movers `( ( Mover :name \"x\" ) ) )"), HasSubstr("expected a latitude"));
 }
 
+TEST(Movers, HaveTheCrossSectionOfASize) {
+  const auto movers = loaded(
+                          "( Movers `( ( Mover \"ship\" 37 -122 :displacement 10000 ) ( Mover \"corner\" 37 -122 "
+                          ":echo trihedral :edge 0.5 :facing 40 :tilt -10 ) ( Mover \"boat\" 37 -122 :echo steady ) ) )"
+                          "( Receiver :frequency 9.7 )")
+                          .radar.world.movers;
+  ASSERT_EQ(movers.size(), 3U);
+  EXPECT_NEAR(movers[0].cross_section_m2, 161'950.0, 50.0);
+  EXPECT_EQ(movers[0].echo, radar::TargetEcho::swerling1);
+  EXPECT_NEAR(movers[1].cross_section_m2, 274.1, 0.1);
+  EXPECT_EQ(movers[1].echo, radar::TargetEcho::trihedral);
+  EXPECT_EQ(movers[1].facing_deg, 40);
+  EXPECT_EQ(movers[1].tilt_deg, -10);
+  EXPECT_EQ(movers[2].cross_section_m2, 1000.0);
+  EXPECT_EQ(movers[2].echo, radar::TargetEcho::steady);
+}
+
+TEST(Movers, OfASizeArePrintedWithIt) {
+  const auto whole = loaded(
+      "( Movers `( ( Mover \"ship\" 37 -122 :displacement 10000 ) "
+      "( Mover \"corner\" 37 -122 :echo dihedral :edge 0.5 :facing 40 ) ( Mover \"boat\" 37 -122 ) ) )");
+  const std::string text = print_configuration(whole.radar);
+  EXPECT_THAT(text, HasSubstr(":displacement 10000"));
+  EXPECT_EQ(fields(loaded(text).radar), fields(whole.radar)) << text;
+}
+
+TEST(Movers, HaveOneSizeThatFitsTheirEcho) {
+  const auto refused = [](const std::string& slots) {
+    return refusal("( Movers `( ( Mover \"m\" 37 -122 " + slots + " ) ) )");
+  };
+  EXPECT_THAT(refused(":crossSection 10 :displacement 1000"), HasSubstr("one of crossSection, displacement and edge"));
+  EXPECT_THAT(refused(":edge 1"), HasSubstr("the echo trihedral or dihedral"));
+  EXPECT_THAT(refused(":facing 3"), HasSubstr("the echo trihedral or dihedral"));
+  EXPECT_THAT(refused(":echo trihedral :displacement 1000"), HasSubstr("without a reflector's echo"));
+  EXPECT_THAT(refused(":displacement 0"), HasSubstr("[1, 1000000] t"));
+  EXPECT_THAT(refused(":displacement 500000"), HasSubstr("at most 10000000 m2"));
+  EXPECT_THAT(refused(":echo sometimes"), HasSubstr("swerling1"));
+}
+
 TEST(Scenes, HaveAFileAndOptionalPositionHeadingAndHeights) {
   const auto scenes =
       loaded(

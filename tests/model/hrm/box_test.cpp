@@ -99,6 +99,35 @@ TEST_P(BoxSeen, ReturnsGammaTimesTheAreaThatFacesTheRadar) {
   }
 }
 
+// A wall and the ground before it return as a dihedral while the wall faces the radar.
+TEST(DoubleBounce, HasTheAspectOfTheCardinalEffect) {
+  for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
+    radar::RadarConfiguration configuration = bare_map(240);
+    configuration.receiver.land_gamma_db = -150.0;
+    configuration.fidelity.algorithm = algorithm;
+    const Viewpoint view;
+    const model::physics::LandReturn land = model::physics::make_land_return(configuration);
+    const double cos_grazing = view.distance_m / std::hypot(view.distance_m, view.above_m);
+    for (const double turn_deg : {0.0, 3.0, 6.0, 30.0}) {
+      const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
+      const Box box{0.0, 0.0, view.from_deg + turn_deg, 60.0, 40.0, 25.0, kStone};
+      scene->add(box);
+      const auto seen_m2 = [&](bool bounce) {
+        configuration.fidelity.map_double_bounce = bounce;
+        return cross_section_m2(
+            make_patch(configuration, order_from(view), ground_of(model::terrain::flat(kGround_m)), scene));
+      };
+      const double effect =
+          model::physics::cardinal_gain(land.cardinal[kStone], turn_deg, land.cardinal_width_deg) - 1.0;
+      const double facing_m2 = box.width_m * box.height_m * std::cos(turn_deg * geo::kRadiansPerDegree) * cos_grazing;
+      const double expected_m2 = model::physics::ratio(configuration.high_resolution.double_bounce_db) *
+                                 land.gamma[kStone] * effect * facing_m2;
+      const double largest_m2 = land.gamma[kStone] * land.cardinal[kStone] * facing_m2;
+      EXPECT_NEAR(seen_m2(true) - seen_m2(false), expected_m2, 0.06 * expected_m2 + 0.001 * largest_m2) << turn_deg;
+    }
+  }
+}
+
 // A fence is a vertical face without a roof. It returns the area of its face and shadows the ground behind it.
 TEST(Fence, ReturnsItsFaceAndCastsAShadowWithoutARoof) {
   radar::RadarConfiguration configuration = bare_map();

@@ -25,6 +25,7 @@ inline radar::RadarConfiguration bare_map(int size = 480) {
   configuration.fidelity.map_size = size;
   configuration.fidelity.map_response = false;
   configuration.fidelity.map_detail = false;
+  configuration.fidelity.map_double_bounce = false;
   configuration.fidelity.noise = false;
   return configuration;
 }

@@ -152,6 +152,32 @@ TEST(Mover, ThatMovesAcrossTheLineOfSightIsSmearedAndNotDisplaced) {
   EXPECT_NEAR(bright * pixel_m, 2.0 * path_m, 2.0 * pixel_m);
 }
 
+TEST(PatchPoints, FluctuateFromMapToMapWithNoise) {
+  radar::RadarConfiguration configuration = with_mover(240, {.position = kTarget});
+  const auto ground = ground_of(model::terrain::flat(kGround_m));
+  hrm::PatchOrder order = order_from({});
+  const auto seen_m2 = [&](std::uint32_t map) {
+    order.map = map;
+    return cross_section_m2(make_patch(configuration, order, ground));
+  };
+  EXPECT_EQ(seen_m2(1), seen_m2(2));
+  configuration.fidelity.noise = true;
+  EXPECT_NE(seen_m2(1), seen_m2(2));
+  EXPECT_EQ(seen_m2(1), seen_m2(1));
+}
+
+// The aircraft is south of the target.
+TEST(PatchPoints, OfAReflectorHaveAnAspect) {
+  const auto ground = ground_of(model::terrain::flat(kGround_m));
+  const auto seen_m2 = [&](int facing_deg) {
+    const radar::Mover mover{.position = kTarget, .echo = radar::TargetEcho::trihedral, .facing_deg = facing_deg};
+    return cross_section_m2(make_patch(with_mover(240, mover), order_from({}), ground));
+  };
+  EXPECT_GT(seen_m2(180), 700.0);
+  EXPECT_NEAR(seen_m2(160) / seen_m2(180), 0.5, 0.06);
+  EXPECT_LT(seen_m2(90), 1.0);
+}
+
 // A world that was changed at run time comes with the environment, in place of the configuration's movers.
 TEST(PatchPoints, OfAChangedWorldReplaceTheConfiguredOnes) {
   const auto picture_of = [](const radar::RadarConfiguration& configuration,

@@ -1,6 +1,9 @@
 // Scans with rain, jammers and movers: the live kernel and the offline scan give the same sweeps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
@@ -77,6 +80,41 @@ TEST(WorldScan, ChangesWithTheChannelTheTimeAndTheRain) {
   cockpit.tick.command.channel = 0;
   configuration.world.rain.cells.clear();
   EXPECT_NE(offline_hashes(configuration, cockpit, 0), unjammed) << "dry";
+}
+
+// Brightest sample about a mover over the sea, in a sweep of scan `scan`. Speckle changes it by some levels.
+int brightest_sample(radar::RadarConfiguration configuration, radar::TargetEcho echo, std::uint32_t scan) {
+  configuration.antenna.elevation_beamwidth_deg = 180.0;
+  configuration.fidelity.beam = radar::BeamPattern::hard_edge;
+  configuration.receiver.looks = 16;
+  configuration.world.movers = {{.position = {37.2, -121.75}, .cross_section_m2 = 2e3, .echo = echo}};
+  SweepChain chain(configuration);
+  SweepHeader header;
+  header.apex = {37.0, -121.75};
+  header.altitude = geo::AltitudeMsl::metres(3000.0);
+  header.left = geo::Bearing::degrees(359.7);
+  header.right = geo::Bearing::degrees(0.3);
+  header.range = geo::Length::nautical_miles(20.0);
+  SweepChain::Labels labels;
+  labels.scan = scan;
+  databuffer::Sweep sweep;
+  chain.advance(header, labels, terrain::AnalyticTerrain(terrain::flat(0.0)), sweep);
+  EXPECT_TRUE(chain.flush(sweep));
+  return *std::max_element(sweep.video + sweep.samples / 2, sweep.video + sweep.samples * 3 / 4);
+}
+
+TEST(WorldScan, DrawsTheEchoOfAMoverByItsNumber) {
+  for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
+    radar::RadarConfiguration configuration;
+    configuration.fidelity.algorithm = algorithm;
+    std::vector<int> levels, steady;
+    for (std::uint32_t scan = 1; scan <= 12; ++scan) {
+      levels.push_back(brightest_sample(configuration, radar::TargetEcho::swerling1, scan));
+      steady.push_back(brightest_sample(configuration, radar::TargetEcho::steady, scan));
+    }
+    EXPECT_GT(*std::ranges::max_element(levels) - *std::ranges::min_element(levels), 60);
+    EXPECT_LT(*std::ranges::max_element(steady) - *std::ranges::min_element(steady), 30);
+  }
 }
 
 }  // namespace

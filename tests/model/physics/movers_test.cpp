@@ -240,6 +240,51 @@ TEST(Movers, AreFoundAfterAnyTime) {
   }
 }
 
+// Power of the echo of a mover in a scan.
+double echo_in_scan(const radar::RadarConfiguration& configuration, std::uint32_t scan, double azimuth_deg = 0.0) {
+  const terrain::AnalyticTerrain sea(terrain::flat(0.0));
+  physics::Environment environment(sea);
+  environment.scan = scan;
+  physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, kMoversRange_m);
+  geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
+  physics::Movers movers(configuration);
+  return movers
+      .echoes(geometry, physics::Receivers(configuration).at(geometry.range), physics::EffectiveEarth(8.5e6),
+              environment)
+      .front()
+      .power;
+}
+
+TEST(Movers, FluctuateFromScanToScanWithNoiseAlone) {
+  radar::RadarConfiguration configuration = with(ship_at(20020.0));
+  const double steady = echo_in_scan(configuration, 1);
+  EXPECT_EQ(echo_in_scan(configuration, 2), steady);
+  configuration.fidelity.noise = true;
+  const double first = echo_in_scan(configuration, 1), second = echo_in_scan(configuration, 2);
+  EXPECT_NE(first, steady);
+  EXPECT_NE(first, second);
+  EXPECT_EQ(echo_in_scan(configuration, 1), first);
+  EXPECT_NEAR(echo_in_scan(configuration, 1, 0.5) / first, echo_in_scan(with(ship_at(20020.0)), 1, 0.5) / steady, 1e-9)
+      << "a target keeps its echo during a scan";
+  ++configuration.seed;
+  EXPECT_NE(echo_in_scan(configuration, 1), first);
+  configuration.world.movers[0].echo = radar::TargetEcho::steady;
+  EXPECT_EQ(echo_in_scan(configuration, 1), steady);
+  configuration.world.movers[0].echo = radar::TargetEcho::swerling1;
+  configuration.fidelity.algorithm = radar::Algorithm::report_1996;
+  EXPECT_EQ(echo_in_scan(configuration, 1), echo_in_scan(configuration, 2)) << "in the picture of 1996";
+}
+
+TEST(Movers, OfDifferentNumbersFluctuateIndependently) {
+  using physics::swerling_factor;
+  double products = 0.0;
+  constexpr std::uint32_t kScans = 10'000;
+  for (std::uint32_t scan = 1; scan <= kScans; ++scan)
+    products += swerling_factor(radar::TargetEcho::swerling1, 1, scan, 0) *
+                swerling_factor(radar::TargetEcho::swerling1, 1, scan, 1);
+  EXPECT_NEAR(products / kScans, 1.0, 0.05);
+}
+
 TEST(NearestSample, HasTheCentreNearestToTheDistance) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> centres{nan, nan, 25.0, 35.0, 45.0};
