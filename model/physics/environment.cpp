@@ -156,8 +156,8 @@ void Movers::add_echo(std::size_t number, const MovingPoint& point, const Sector
   const double cross_section_m2 = target_echoes_.cross_section_m2(
       point.target, scan, [&, apex = geometry.apex] { return aspect_of(position, apex, sight); });
   const double power = returned_power(cross_section_m2, loss * gain, sight.slant_range_m);
-  echoes_.push_back(
-      {number, position, point.height_m, distance_m, sight.slant_range_m, offset_rad, received(receiver, power, sight.slant_range_m)});
+  echoes_.push_back({number, position, point.height_m, distance_m, sight.slant_range_m, offset_rad,
+                     received(receiver, power, sight.slant_range_m)});
 }
 
 namespace {

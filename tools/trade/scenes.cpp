@@ -116,7 +116,7 @@ model::hrm::PatchOrder order_of(const MapView& view) {
 
 Values values_of(const Cost& cost, const Errors& errors) {
   return {cost.scan_ms,          cost.samples_per_second, cost.terrain_bytes, errors.position_m,
-          errors.shadow_percent, errors.power_db,         errors.gray_levels};
+          errors.shadow_percent, errors.power_db,         errors.gray_levels, errors.brightness_db};
 }
 
 SceneRow row_of(const Scene& scene) {
@@ -126,8 +126,8 @@ SceneRow row_of(const Scene& scene) {
 }
 
 Values values_of(const MapCost& cost, const MapErrors& errors) {
-  return {cost.map_ms,           cost.terrain_bytes, errors.position_m,
-          errors.shadow_percent, errors.power_db,    errors.gray_levels};
+  return {cost.map_ms,     cost.terrain_bytes, errors.position_m,   errors.shadow_percent,
+          errors.power_db, errors.gray_levels, errors.brightness_db};
 }
 
 SceneRow row_of(const MapView& view) {

@@ -68,15 +68,17 @@ enum ScanColumn : std::size_t {
   kScanPosition,
   kScanShadow,
   kScanPower,
-  kScanGray
+  kScanGray,
+  kScanBrightness
 };
-inline constexpr std::array<Column, 7> kScanColumns{{{"scan_ms", "ms a scan"},
+inline constexpr std::array<Column, 8> kScanColumns{{{"scan_ms", "ms a scan"},
                                                      {"samples_per_second", "M samples/s", 1e-6, true},
                                                      {"terrain_bytes", "terrain MB", 1e-6},
                                                      {"position_m", "position m"},
                                                      {"shadow_percent", "shadow %"},
                                                      {"power_db", "power dB"},
-                                                     {"gray_levels", "gray"}}};
+                                                     {"gray_levels", "gray"},
+                                                     {"brightness_db", "brightness dB"}}};
 inline constexpr std::array<std::string_view, 5> kScanFields{"latitude_deg", "longitude_deg", "altitude_ft",
                                                              "heading_deg", "range_nm"};
 
@@ -90,13 +92,22 @@ Values values_of(const Cost& cost, const Errors& errors);
 SceneRow row_of(const Scene& scene);
 
 // Columns of the result table of `yars trade maps`.
-enum MapColumn : std::size_t { kMapMs, kMapTerrainBytes, kMapPosition, kMapShadow, kMapPower, kMapGray };
-inline constexpr std::array<Column, 6> kMapColumns{{{"map_ms", "ms a map"},
+enum MapColumn : std::size_t {
+  kMapMs,
+  kMapTerrainBytes,
+  kMapPosition,
+  kMapShadow,
+  kMapPower,
+  kMapGray,
+  kMapBrightness
+};
+inline constexpr std::array<Column, 7> kMapColumns{{{"map_ms", "ms a map"},
                                                     {"terrain_bytes", "terrain MB", 1e-6},
                                                     {"position_m", "position m"},
                                                     {"shadow_percent", "shadow %"},
                                                     {"power_db", "power dB"},
-                                                    {"gray_levels", "gray"}}};
+                                                    {"gray_levels", "gray"},
+                                                    {"brightness_db", "brightness dB"}}};
 inline constexpr std::array<std::string_view, 6> kMapFields{
     "latitude_deg", "longitude_deg", "altitude_ft", "target_latitude_deg", "target_longitude_deg", "window_nm"};
 

@@ -74,6 +74,19 @@ namespace {
 namespace hrm = model::hrm;
 using radar::RadarConfiguration;
 
+// Sums of power of the ruler and of what is compared with it.
+struct Brightness {
+  double ruler = 0.0, found = 0.0;
+  void add(double ruler_power, double found_power) {
+    ruler += ruler_power;
+    found += found_power;
+  }
+  // [dB] NaN: none
+  double over_the_ruler(bool is_radar) const {
+    return is_radar && ruler > 0.0 ? 10.0 * std::log10(found / ruler) : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
 constexpr double kDarkFraction = 0.05;    // fraction of level ground's power; pixels with less power are dark
 constexpr double kMinPower = 1e-8;        // lower limit of powers, avoids log10(0); unit as MapImage::power
 constexpr double kVisibleFraction = 0.2;  // fraction of the brightest mark's power; a mark with less is hidden
@@ -147,6 +160,7 @@ MapObservation observe_map(const RadarConfiguration& configuration, const hrm::P
 
 MapErrors errors_against(const MapObservation& ruler, const MapObservation& found) {
   RootMeanSquare decibels, grays;
+  Brightness brightness;
   std::size_t mismatches = 0;
   const auto size = static_cast<std::size_t>(ruler.size), found_size = static_cast<std::size_t>(found.size);
   for (std::size_t row = 0; row < size; ++row) {
@@ -158,6 +172,7 @@ MapErrors errors_against(const MapObservation& ruler, const MapObservation& foun
       grays.add(static_cast<double>(ruler.video[here]) - static_cast<double>(found.video[there]));
       if (ruler.dark[here] != found.dark[there]) ++mismatches;
       const auto exact = static_cast<double>(ruler.power[here]);
+      if (exact >= 0.0) brightness.add(exact, static_cast<double>(found.power[there]));
       const bool both = ruler.dark[here] == 0 && found.dark[there] == 0 && found.power_is_radar && exact > ruler.noise;
       if (both) decibels.add(10.0 * std::log10(std::max(static_cast<double>(found.power[there]), kMinPower) / exact));
     }
@@ -170,7 +185,7 @@ MapErrors errors_against(const MapObservation& ruler, const MapObservation& foun
     farthest_m = std::isnan(farthest_m) ? away_m : std::max(farthest_m, away_m);
   }
   return {farthest_m, 100.0 * static_cast<double>(mismatches) / static_cast<double>(ruler.power.size()),
-          decibels.value(), grays.value()};
+          decibels.value(), grays.value(), brightness.over_the_ruler(found.power_is_radar)};
 }
 
 namespace {
@@ -259,6 +274,7 @@ Errors errors_against(const Ruler& ruler, const ScanObservation& found) {
   const ScanObservation& exact = ruler.observation;
   YARS_REQUIRE(exact.sweeps, ==, found.sweeps);
   RootMeanSquare decibels, grays;
+  Brightness brightness;
   std::size_t ground = 0, mismatches = 0;
   for (std::size_t sweep = 0; sweep < exact.sweeps; ++sweep) {
     for (std::size_t i = 0; i < exact.samples; ++i) {
@@ -266,6 +282,7 @@ Errors errors_against(const Ruler& ruler, const ScanObservation& found) {
       // Index of the sample that contains the middle of the ruler's sample.
       const std::size_t there = sweep * found.samples + (2 * i + 1) * found.samples / (2 * exact.samples);
       grays.add(static_cast<double>(exact.video[here]) - static_cast<double>(found.video[there]));
+      brightness.add(static_cast<double>(exact.power[here]), static_cast<double>(found.power[there]));
       if (ruler.ground[here] == 0) continue;
       ++ground;
       if (exact.seen[here] != found.seen[there]) ++mismatches;
@@ -277,7 +294,8 @@ Errors errors_against(const Ruler& ruler, const ScanObservation& found) {
     }
   }
   const double fraction = ground > 0 ? static_cast<double>(mismatches) / static_cast<double>(ground) : 0.0;
-  return {found.position_m, 100.0 * fraction, decibels.value(), grays.value()};
+  return {found.position_m, 100.0 * fraction, decibels.value(), grays.value(),
+          brightness.over_the_ruler(found.power_is_radar)};
 }
 
 }  // namespace yars::tools::trade

@@ -86,7 +86,8 @@ struct MapErrors {
   // [dB] RMS ratio of powers, over pixels that are dark in neither map and exceed the noise in the ruler. NaN: there is
   // no such pixel, or the compared map is by the algorithm of 1996.
   double power_db = 0.0;
-  double gray_levels = 0.0;  // [0 to 255] RMS difference of the video
+  double gray_levels = 0.0;    // [0 to 255] RMS difference of the video
+  double brightness_db = 0.0;  // mean power of all pixels over that of the ruler; NaN: the algorithm of 1996
 };
 
 // Compares each pixel of the ruler with the pixel of `found` that contains its centre.
@@ -134,7 +135,8 @@ struct Errors {
   // [dB] RMS ratio of powers, over samples with known ground that return power in both scans and exceed the noise in
   // the ruler. NaN: there is no such sample, or the compared scan is by the algorithm of 1996.
   double power_db = 0.0;
-  double gray_levels = 0.0;  // [0 to 255] RMS difference of the video
+  double gray_levels = 0.0;    // [0 to 255] RMS difference of the video
+  double brightness_db = 0.0;  // mean power of all samples over that of the ruler; NaN: the algorithm of 1996
 };
 
 // Compares each sample of the ruler with the sample of `found` that contains its middle, in the same sweep.

@@ -173,7 +173,8 @@ Summary summary_of(const TradeTable& table, std::size_t candidate, std::size_t c
     if (std::isnan(value)) continue;
     sum += value;
     ++count;
-    const bool worse = table.columns[column].min_is_worst ? value < summary.worst : value > summary.worst;
+    const bool worse =
+        table.columns[column].min_is_worst ? value < summary.worst : std::abs(value) > std::abs(summary.worst);
     if (count > 1 && !worse) continue;
     summary.worst = value;
     summary.worst_scene = scene;

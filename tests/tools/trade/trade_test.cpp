@@ -48,6 +48,7 @@ TEST(Trade, TheReferenceAgainstItselfHasNoError) {
   EXPECT_EQ(errors.shadow_percent, 0.0);
   EXPECT_EQ(errors.power_db, 0.0);
   EXPECT_EQ(errors.gray_levels, 0.0);
+  EXPECT_EQ(errors.brightness_db, 0.0);
 }
 
 TEST(Trade, StandardKeepsItsBoundsAgainstTheReferenceAlgorithmWithTheSameKnobs) {
@@ -105,6 +106,7 @@ TEST(Trade, ComparesOnTheRulersGridByTheNearestSample) {
   EXPECT_DOUBLE_EQ(errors.shadow_percent, 100.0 / 3.0);  // the void does not count
   EXPECT_NEAR(errors.power_db, 10.0, 1e-6);  // over the first two samples: the third is in shadow, the fourth void
   EXPECT_DOUBLE_EQ(errors.gray_levels, std::sqrt(8.0));
+  EXPECT_NEAR(errors.brightness_db, 10.0 * std::log10(2.2 / 4.0), 1e-6);
 }
 
 TEST(Trade, The1996PresetHasNoPowerError) {
@@ -181,8 +183,8 @@ TradeTable small_table() {
   table.scenes = {row_of(Scene{{37.0, -122.0}, 15000.0, 60.0, 10.0}),
                   row_of(Scene{{37.0, -122.0}, 15000.0, 60.0, 160.0})};
   const double none = std::numeric_limits<double>::quiet_NaN();
-  table.values = {{Values{1.0, 2e6, 5e6, 0.1, 1.0, 2.0, 3.0}, Values{2.0, 1e6, 9e6, 0.3, 2.0, 3.0, 7.0}},
-                  {Values{4.0, 3e6, 5e6, 0.0, 0.5, none, 1.0}, Values{3.0, 4e6, 5e6, 0.0, 0.0, none, 0.0}}};
+  table.values = {{Values{1.0, 2e6, 5e6, 0.1, 1.0, 2.0, 3.0, 0.2}, Values{2.0, 1e6, 9e6, 0.3, 2.0, 3.0, 7.0, -0.4}},
+                  {Values{4.0, 3e6, 5e6, 0.0, 0.5, none, 1.0, none}, Values{3.0, 4e6, 5e6, 0.0, 0.0, none, 0.0, none}}};
   return table;
 }
 
@@ -194,6 +196,7 @@ TEST(Trade, TheWorstCaseIsTheMaximumOverTheScenesForSpeedTheMinimum) {
   EXPECT_EQ(summary_of(small_table(), 1, kScanMs).worst_scene, 0U);
   EXPECT_DOUBLE_EQ(summary_of(small_table(), 0, kSamplesPerSecond).worst, 1e6);  // the lowest speed is the worst
   EXPECT_TRUE(std::isnan(summary_of(small_table(), 1, kScanPower).mean));
+  EXPECT_DOUBLE_EQ(summary_of(small_table(), 0, kScanBrightness).worst, -0.4);  // farthest from 0
 }
 
 TEST(Trade, CsvHasOneCompleteRowPerCandidateAndScene) {
@@ -207,8 +210,8 @@ TEST(Trade, CsvHasOneCompleteRowPerCandidateAndScene) {
     const auto fields = text::fields_of(line, ',');
     ASSERT_EQ(fields.size(), names) << line;
     rows.insert(std::string(fields[0]) + " " + std::string(fields[2]));
-    EXPECT_TRUE(text::finite_number(fields[names - 1])) << line;
-    EXPECT_TRUE(text::finite_number(fields[names - 2]) || fields[names - 2].empty()) << line;
+    EXPECT_TRUE(text::finite_number(fields[names - 2])) << line;
+    EXPECT_TRUE(text::finite_number(fields[names - 1]) || fields[names - 1].empty()) << line;
   }
   EXPECT_EQ(rows, (std::set<std::string>{"draft 1", "draft 2", "samples=240 1", "samples=240 2"}));
 }
