@@ -16,14 +16,19 @@ NoiseState make_noise_state(const NoiseKey& key) {
   return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32U)};
 }
 
+namespace {
+// Parts round the earth at a latitude, those of whole cells.
+double columns_at(const GroundGrid& grid, double latitude_deg) {
+  const double around = 360.0 * grid.rows_per_degree * std::cos(latitude_deg * geo::kRadiansPerDegree);
+  return kPartsPerCell * std::max(1.0, std::round(around / kPartsPerCell));
+}
+}  // namespace
+
 GroundGrid make_ground_grid(double edge_m) {
   GroundGrid grid;
-  grid.rows_per_degree = kGridMetresPerDegree / edge_m;
-  for (std::size_t band = 0; band < grid.columns.size(); ++band) {
-    const double latitude_deg = static_cast<double>(band) - 89.5;
-    const double around = 360.0 * grid.rows_per_degree * std::cos(latitude_deg * geo::kRadiansPerDegree);
-    grid.columns[band] = std::max(1.0, std::round(around));
-  }
+  grid.rows_per_degree = kPartsPerCell * kGridMetresPerDegree / edge_m;
+  for (std::size_t band = 0; band < grid.columns.size(); ++band)
+    grid.columns[band] = columns_at(grid, static_cast<double>(band) - 89.5);
   return grid;
 }
 
@@ -33,8 +38,21 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position) {
   const double turns = position.longitude_deg / 360.0 + 0.5;
   // The integers are signed, because SIMD converts floating point directly to signed integers only.
   const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
-  const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
-  return random::lowbias32(static_cast<std::uint32_t>(row) * kGoldenSection + static_cast<std::uint32_t>(column));
+  const auto column_of = [&](double columns) {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>((turns - std::floor(turns)) * columns));
+  };
+  double columns = grid.columns[band];
+  std::uint32_t column = column_of(columns);
+  const std::uint32_t part = random::lowbias32((static_cast<std::uint32_t>(row) * kGoldenSection + column) ^ kPartKey);
+  const std::uint32_t cell_row = (static_cast<std::uint32_t>(row) + (part >> 30U)) / kPartsPerCell;
+  if (std::abs(position.latitude_deg) > kPolar_deg) {
+    const double middle_deg = (cell_row + 0.5) * kPartsPerCell / grid.rows_per_degree - 90.0;
+    columns = columns_at(grid, std::clamp(middle_deg, -90.0, 90.0));
+    column = column_of(columns);
+  }
+  std::uint32_t cell_column = (column + (part >> 28U & 3U)) / kPartsPerCell;
+  if (cell_column * kPartsPerCell >= static_cast<std::uint32_t>(columns)) cell_column = 0;
+  return random::lowbias32(cell_row * kGoldenSection + cell_column);
 }
 
 namespace {

@@ -51,18 +51,27 @@ inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
   return static_cast<std::uint32_t>((static_cast<float>(static_cast<std::int32_t>(sample)) + 0.5F) * cells);
 }
 
-// Grid of cells of about equal size on the earth. Each cell has its own random bits, which do not change between scans.
-// Rows have equal height in latitude. The number of columns follows the cosine of each degree's middle latitude.
+// Cells of about equal size on the earth. Each cell has its own random bits, which do not change between scans. A cell
+// has no straight edges, so that a picture shows no lattice: the grid has kPartsPerCell parts along an edge of a cell,
+// and each part belongs, by chance, to the cell around it or to the next one.
+// Rows have equal height in latitude. The number of columns follows the cosine of each degree's middle latitude, and of
+// each row's beyond kPolar_deg.
 struct GroundGrid {
-  double rows_per_degree = 0.0;
-  std::array<double, 180> columns{};  // cells round the earth, for each degree of latitude from the south pole
+  double rows_per_degree = 0.0;       // of parts
+  std::array<double, 180> columns{};  // parts round the earth, for each degree of latitude from the south pole
 };
+inline constexpr std::uint32_t kPartsPerCell = 4;
+// Beyond this latitude the cosine changes by more than a tenth in half a degree.
+inline constexpr double kPolar_deg = 84.0;
+// Separates the bits that choose a part's cell from those of the cell.
+inline constexpr std::uint32_t kPartKey = 0x5bd1e995U;
 
 // [m] length of one degree of latitude on the grid: 60 NM, within 0.6 % of the ellipsoid's. The texture of every
 // picture depends on this value.
 inline constexpr double kGridMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 
-// Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude.
+// Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude, and within
+// 10 % up to the last kilometres before a pole.
 GroundGrid make_ground_grid(double edge_m);
 
 // 32 random bits of the cell at a position. The longitude is any finite number; the latitude is within +-90 degrees.

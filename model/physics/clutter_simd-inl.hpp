@@ -59,8 +59,8 @@ HWY_INLINE V noise_bits(NoiseState state, V cell, std::uint32_t draw) {
 }
 
 // Number [0, 255] of the texture level of the ground cell at each sample: the upper 8 bits of ground_bits(). Cells are
-// found in float from the south-west corner of each one-degree square. Within a centimetre of a cell's edge the level
-// may be that of the neighbouring cell.
+// found in float from the south-west corner of each one-degree square. Within a centimetre of the edge of a part of a
+// cell (GroundGrid) the level may be that of the neighbouring part.
 class TextureCells {
  public:
   explicit TextureCells(const GroundInputs& in) : in_(in) {}
@@ -96,15 +96,30 @@ class TextureCells {
     const GroundTag d;
     const hn::RebindToSigned<GroundTag> di;
     const hn::RebindToUnsigned<GroundTag> du;
-    const auto cell = [&](const float* within, float per_degree, float offset, std::int32_t first) {
+    static_assert(kPartsPerCell == 4);
+    if (degree_.polar) {
+      HWY_ALIGN std::int32_t bits[terrain::kRunSlack];
+      polar_bits(in_, i, hn::Lanes(d), bits);
+      return hn::BitCast(di, hn::ShiftRight<24>(hn::BitCast(du, hn::Load(di, bits))));
+    }
+    const auto part_of = [&](const float* within, float per_degree, float offset, std::int32_t first) {
       const auto on = hn::Add(hn::Mul(hn::LoadU(d, within + i), hn::Set(d, per_degree)), hn::Set(d, offset));
-      return hn::Add(hn::ConvertTo(di, on), hn::Set(di, first));
+      return hn::BitCast(du, hn::Add(hn::ConvertTo(di, on), hn::Set(di, first)));
     };
-    const auto row = cell(in_.positions.north_deg.data(), degree_.rows, degree_.row_offset, degree_.row);
-    const auto column = cell(in_.positions.east_deg.data(), degree_.columns, degree_.column_offset, degree_.column);
-    const auto number = hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, kGoldenSection)), hn::BitCast(du, column));
-    // The last step of lowbias32 does not change the highest eight bits.
-    return hn::BitCast(di, hn::ShiftRight<24>(random::HWY_NAMESPACE::lowbias32_rounds(number)));
+    const auto row = part_of(in_.positions.north_deg.data(), degree_.rows, degree_.row_offset, degree_.row);
+    const auto column = part_of(in_.positions.east_deg.data(), degree_.columns, degree_.column_offset, degree_.column);
+    // The last step of lowbias32 does not change the upper half of the bits.
+    const auto mixed = [&](auto north, auto east, std::uint32_t key) {
+      const auto number = hn::Add(hn::Mul(north, hn::Set(du, kGoldenSection)), east);
+      return random::HWY_NAMESPACE::lowbias32_rounds(hn::Xor(number, hn::Set(du, key)));
+    };
+    const auto part = mixed(row, column, kPartKey);
+    const auto cell_row = hn::ShiftRight<2>(hn::Add(row, hn::ShiftRight<30>(part)));
+    auto cell_column = hn::Add(column, hn::And(hn::ShiftRight<28>(part), hn::Set(du, 3U)));
+    cell_column = hn::ShiftRight<2>(cell_column);
+    const auto around = hn::Eq(cell_column, hn::Set(du, static_cast<std::uint32_t>(degree_.cells_around)));
+    const auto bits = mixed(cell_row, hn::IfThenZeroElse(around, cell_column), 0U);
+    return hn::BitCast(di, hn::ShiftRight<24>(bits));
   }
 
   const GroundInputs& in_;

@@ -1,6 +1,7 @@
 #include "model/physics/clutter_simd.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -206,7 +207,17 @@ TextureDegree texture_degree(const GroundInputs& ground, float cells_north, floa
           static_cast<float>(row - std::floor(row)),
           static_cast<float>(column - std::floor(column)),
           static_cast<float>(ground.grid->rows_per_degree),
-          static_cast<float>(columns / 360.0)};
+          static_cast<float>(columns / 360.0),
+          static_cast<std::int32_t>(columns) / static_cast<std::int32_t>(kPartsPerCell),
+          std::max(90.0 - north_deg, north_deg - 89.0) > kPolar_deg};
+}
+
+void polar_bits(const GroundInputs& ground, std::size_t first, std::size_t count, std::int32_t* bits) {
+  for (std::size_t i = first; i < first + count; ++i) {
+    const geo::GeoPoint position = terrain::position_of(ground.positions, i);
+    const bool known = std::isfinite(position.latitude_deg) && std::isfinite(position.longitude_deg);
+    bits[i - first] = known ? std::bit_cast<std::int32_t>(ground_bits(*ground.grid, position)) : 0;
+  }
 }
 
 HWY_EXPORT(speckle);

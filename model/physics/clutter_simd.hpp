@@ -47,14 +47,19 @@ struct GroundInputs {
 // `sin_grazing`.
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea);
 
-// Texture grid in a one-degree square. The square's south-west corner is `cells_north` and `cells_east` whole degrees
-// from `ground.positions.corner` (arguments of texture_degree()).
+// Parts of the texture grid in a one-degree square. The square's south-west corner is `cells_north` and `cells_east`
+// whole degrees from `ground.positions.corner` (arguments of texture_degree()).
 struct TextureDegree {
-  std::int32_t row = 0, column = 0;               // grid cell at the square's south-west corner
-  float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that cell outside the square
-  float rows = 0.0F, columns = 0.0F;              // grid cells per degree
+  std::int32_t row = 0, column = 0;               // part at the square's south-west corner
+  float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that part outside the square
+  float rows = 0.0F, columns = 0.0F;              // parts per degree
+  std::int32_t cells_around = 1;                  // cells round the earth
+  bool polar = false;                             // beyond kPolar_deg
 };
 TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east);
+
+// ground_bits() of `count` samples from `first` on.
+void polar_bits(const GroundInputs& ground, std::size_t first, std::size_t count, std::int32_t* bits);
 
 // True if any of the first `count` entries is above 0. No entry beyond them is read.
 bool any_positive(std::size_t count, const float* values);

@@ -63,7 +63,7 @@ Returns returns_of(const radar::RadarConfiguration& configuration, const physics
 TEST(Ground, EqualsTheScalarVersion) {
   radar::RadarConfiguration configuration;
   configuration.world.land.texture = 3.0;
-  for (const geo::GeoPoint apex : {geo::GeoPoint{37.6, -122.4}, {-0.3, 179.2}, {-66.0, 10.0}}) {
+  for (const geo::GeoPoint apex : {geo::GeoPoint{37.6, -122.4}, {-0.3, 179.2}, {-66.0, 10.0}, {85.1, 40.0}}) {
     for (const double azimuth_deg : {20.0, 65.0, 190.0, 300.0}) {
       const physics::SweepGeometry geometry = geometry_from(apex, azimuth_deg);
       const physics::PositionArrays positions = positions_of(geometry);
@@ -76,14 +76,16 @@ TEST(Ground, EqualsTheScalarVersion) {
       const geo::Bearing azimuth =
           geo::GeodesicRay(apex, geometry.azimuth).position_and_azimuth(0.5 * geometry.range).azimuth;
       int different = 0;
+      // Near a pole the azimuth at half the range differs by more, and with it the return of walls.
+      const double within = std::abs(apex.latitude_deg) > 80.0 ? 0.03 : 0.02;
       for (std::size_t i = 0; i < kCount; ++i) {
         const physics::SurfaceReturn::Reflectivity expected =
             exact.at({terrain::position_of(positions.run(), i), azimuth, 0.02, static_cast<double>(water[i]),
                       static_cast<std::uint8_t>(code[i])});
         const double found = static_cast<double>(fast.land[i]) * 0.02 + static_cast<double>(fast.sea[i]);
-        different += std::abs(found / (expected.gamma * 0.02 + expected.sigma0) - 1.0) < 0.02 ? 0 : 1;
+        different += std::abs(found / (expected.gamma * 0.02 + expected.sigma0) - 1.0) < within ? 0 : 1;
       }
-      // Within a centimetre of the edge of a texture cell, rounding may select the neighbouring cell.
+      // Within a centimetre of the edge of a part of a texture cell, rounding may select the neighbouring part.
       EXPECT_LE(different, 2) << apex.latitude_deg << ", " << azimuth_deg;
     }
   }
