@@ -178,6 +178,16 @@ struct GroundReturn {
   bool wet;           // false: `sea` is 0 in every lane
 };
 
+// First entry of the texture's levels of land.
+HWY_INLINE GroundInts land_entry(const GroundInputs& in, std::size_t i, GroundInts code) {
+  const hn::RebindToSigned<GroundTag> di;
+  const auto of_set = [&](std::uint32_t set) { return hn::RebindMask(di, in_set(set, code)); };
+  auto entry = hn::LoadU(di, in.rural + i);
+  if (in.material == nullptr && (in.configured & 1U) == 0) return entry;
+  entry = hn::IfThenElse(of_set(in.even_kinds), hn::LoadU(di, in.even + i), entry);
+  return hn::IfThenElse(of_set(in.configured), hn::GatherIndex(di, in.tables->entry.data(), code), entry);
+}
+
 constexpr std::uint32_t kWaterBit = 1U << static_cast<unsigned>(radar::kWaterMaterial);
 
 // Ground return of the vector of samples that begins at `i`. `level_sine` is the sine of the grazing angle on level
@@ -200,8 +210,8 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundCache& cache
   const bool textured_sea = in.textured_sea && some_wet;
   auto level = hn::Zero(di);
   if (textured_land || textured_sea) level = cache.texture.levels(i);
-  auto gamma = textured_land ? hn::GatherIndex(d, in.tables->texture.data(), hn::Add(hn::ShiftLeft<8>(code), level))
-                             : by_code(in.tables->gamma.data(), code);
+  auto gamma = by_code(in.tables->gamma.data(), code);
+  if (textured_land) gamma = hn::Mul(gamma, hn::GatherIndex(d, in.levels, hn::Add(land_entry(in, i, code), level)));
   if (special) {
     const auto walled = in_set(in.walled, code);
     if (!hn::AllFalse(d, walled)) gamma = hn::Mul(gamma, hn::IfThenElse(walled, hn::LoadU(d, in.wall_gain + i), one));
@@ -210,8 +220,7 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundCache& cache
   if (!result.wet) return result;
   auto value = sea_sigma0(cache.sea.sigma0(), sin_grazing());
   if (textured_sea) {
-    const float* const levels = &in.tables->texture[radar::kWaterMaterial * kTextureLevels];
-    value = hn::Mul(value, hn::GatherIndex(d, levels, level));
+    value = hn::Mul(value, hn::GatherIndex(d, in.levels, hn::Add(hn::Set(di, in.sea_entry), level)));
   }
   result.sea = hn::IfThenElseZero(wet, hn::Mul(water, value));
   return result;

@@ -22,9 +22,8 @@ namespace yars::model::physics::simd {
 // Land coefficients by material code.
 struct MaterialTables {
   std::array<float, radar::kMaterials> gamma{};
-  // Gamma times texture level, kTextureLevels entries per material; equal entries for a material without texture. The
-  // water material has the sea's texture levels without gamma. Not read if neither land nor sea has texture.
-  std::array<float, radar::kMaterials * kTextureLevels> texture{};
+  // First entry of GroundInputs::levels of the materials with a configured texture, or with none.
+  std::array<std::int32_t, radar::kMaterials> entry{};
 };
 
 // Ground of one sweep. A set of materials has one bit per material code.
@@ -38,7 +37,13 @@ struct GroundInputs {
   float upwind = 0.0F;                     // cosine of the angle between the ray and the direction the wind comes from
   float* sigma0 = nullptr;                 // buffer for sigma0_at_azimuth(), filled at the first sample with water
   const GroundGrid* grid = nullptr;        // cells of the texture
+  const float* levels = nullptr;           // levels of texture, kTextureLevels for each entry; factors of mean 1
+  const std::int32_t* rural = nullptr;     // first entry of `levels` of rural land, by sample
+  const std::int32_t* even = nullptr;      // the same of even land
+  std::int32_t sea_entry = 0;              // the same of the sea
   std::uint32_t textured = 0;              // set of land materials with texture
+  std::uint32_t configured = 0;            // set of materials whose entry is that of `tables`
+  std::uint32_t even_kinds = 0;            // set of materials of even land
   std::uint32_t walled = 0;                // set of materials with walls
   bool textured_sea = false;
 };

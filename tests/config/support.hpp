@@ -81,7 +81,7 @@ inline double comparable(double value) {
 
 inline auto fields(const radar::Material& material) {
   const auto& [code, name, gamma, cardinal, texture] = material;
-  return std::tuple(code, name, gamma, cardinal, texture);
+  return std::tuple(code, name, gamma, cardinal, comparable(texture));
 }
 
 // Position and values of an entry of a list of the world.
@@ -156,7 +156,7 @@ inline auto fields(const radar::WorldConfiguration& world) {
   const auto lists =
       std::apply([](const auto&... list) { return std::tuple(fields_of_all(list)...); }, radar::lists_of(world));
   return std::tuple(
-      std::tuple(slope, reference, street, land_texture, fields_of_all(materials)),
+      std::tuple(slope, reference, street, comparable(land_texture), fields_of_all(materials)),
       std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor, sea_texture, sea_model),
       std::tuple(a, b, dielectric, comparable(k), comparable(exponent)),
       std::tuple(gases, temperature, pressure, water), std::tuple(radar_power, sidelobes), lists,

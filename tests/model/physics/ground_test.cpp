@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kCount = 1000;
 constexpr double kRange_m = 200'000.0;  // spans some degrees of latitude and longitude
+constexpr physics::TextureSweep kTexture{300.0, kRange_m / kCount, 3000.0, 0.03};
 
 physics::SweepGeometry geometry_from(geo::GeoPoint apex, double azimuth_deg) {
   return {apex, geo::AltitudeMsl::metres(3000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle(),
@@ -50,7 +51,7 @@ Returns returns_of(const radar::RadarConfiguration& configuration, const physics
                    const physics::PositionArrays& positions) {
   constexpr std::size_t kPaddedCount = kCount + terrain::kRunSlack;
   physics::Ground ground(configuration, kCount);
-  ground.use_resolution(300.0, kRange_m / kCount);
+  ground.use_texture(kTexture);
   std::vector<std::int32_t> code(kPaddedCount);
   std::vector<float> water(kPaddedCount);
   const std::vector<float> sine(kPaddedCount, 0.02F);
@@ -62,14 +63,14 @@ Returns returns_of(const radar::RadarConfiguration& configuration, const physics
 
 TEST(Ground, EqualsTheScalarVersion) {
   radar::RadarConfiguration configuration;
-  configuration.world.land.texture = 3.0;
+  configuration.fidelity.samples = kCount;
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.6, -122.4}, {-0.3, 179.2}, {-66.0, 10.0}, {85.1, 40.0}}) {
     for (const double azimuth_deg : {20.0, 65.0, 190.0, 300.0}) {
       const physics::SweepGeometry geometry = geometry_from(apex, azimuth_deg);
       const physics::PositionArrays positions = positions_of(geometry);
       const Returns fast = returns_of(configuration, geometry, positions);
       physics::SurfaceReturn exact(configuration);
-      exact.use_resolution(300.0, kRange_m / kCount);
+      exact.use_texture(kTexture);
       std::vector<std::int32_t> code(kCount + terrain::kRunSlack);
       std::vector<float> water(code.size());
       fill(code, water);
@@ -81,7 +82,7 @@ TEST(Ground, EqualsTheScalarVersion) {
       for (std::size_t i = 0; i < kCount; ++i) {
         const physics::SurfaceReturn::Reflectivity expected =
             exact.at({terrain::position_of(positions.run(), i), azimuth, 0.02, static_cast<double>(water[i]),
-                      static_cast<std::uint8_t>(code[i])});
+                      static_cast<std::uint8_t>(code[i]), i});
         const double found = static_cast<double>(fast.land[i]) * 0.02 + static_cast<double>(fast.sea[i]);
         different += std::abs(found / (expected.gamma * 0.02 + expected.sigma0) - 1.0) < within ? 0 : 1;
       }
@@ -95,8 +96,10 @@ TEST(Ground, IsTheSameOnEveryVectorTarget) {
   const physics::SweepGeometry geometry = geometry_from({37.6, -122.4}, 65.0);
   const physics::PositionArrays positions = positions_of(geometry);
   Returns first;
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.samples = kCount;
   test::for_each_vector_target([&](const char* name) {
-    const Returns found = returns_of(radar::RadarConfiguration(), geometry, positions);
+    const Returns found = returns_of(configuration, geometry, positions);
     if (first.land.empty()) first = found;
     EXPECT_EQ(found, first) << name;
   });
@@ -104,6 +107,7 @@ TEST(Ground, IsTheSameOnEveryVectorTarget) {
 
 TEST(Ground, GivesNoArraysForLandWithoutCultureTextureAndWater) {
   radar::RadarConfiguration configuration;
+  configuration.world.land.texture = 0.0;
   const physics::SweepGeometry geometry = geometry_from({37.6, -122.4}, 65.0);
   const physics::PositionArrays positions = positions_of(geometry);
   physics::Ground ground(configuration, kCount);
