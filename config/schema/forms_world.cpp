@@ -225,32 +225,40 @@ FormSchema sea() {
   return {
       .name = "Sea",
       .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
-      .slots = {value_slot("state", values::WorldState::sea_state, YARS_FIELD(radar.world.sea.state)),
-                value_slot("windSpeed", values::WorldState::wind_speed, YARS_FIELD(radar.world.sea.wind_speed_mps)),
-                value_slot("windFrom", values::WorldState::wind_from, YARS_FIELD(radar.world.sea.wind_from_deg)),
-                {.name = "polarization",
-                 .binding = ChoiceSlot{
-                     kPolarizations,
-                     [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
-                     [](ConfigurationBuilder& builder, int index) {
-                       builder.radar.world.sea.polarization = radar::Polarization(index);
-                     }},
-                 .purpose = "polarization of the radar"},
-                sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
-                sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
-                number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
-                            "wind direction factor; 0.2: at small grazing angles 3 dB more upwind and 3 dB less "
-                            "downwind at X band; 0: no effect"),
-                number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
-                            "shape parameter of the sea's texture; small = spiky, 0 = none"),
-                {.name = "model",
-                 .binding = ChoiceSlot{
-                     kSeaModels, [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.model); },
-                     [](ConfigurationBuilder& builder, int index) {
-                       builder.radar.world.sea.model = radar::SeaModel(index);
-                     }},
-                 .purpose = "nathanson: the NRL model with a correction fitted to Nathanson's table of X band, for "
-                            "frequencies of Receiver from 8 to 12 GHz"}},
+      .slots =
+          {value_slot("state", values::WorldState::sea_state, YARS_FIELD(radar.world.sea.state)),
+           value_slot("windSpeed", values::WorldState::wind_speed, YARS_FIELD(radar.world.sea.wind_speed_mps)),
+           value_slot("windFrom", values::WorldState::wind_from, YARS_FIELD(radar.world.sea.wind_from_deg)),
+           {.name = "polarization",
+            .binding = ChoiceSlot{
+                kPolarizations,
+                [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
+                [](ConfigurationBuilder& builder, int index) {
+                  builder.radar.world.sea.polarization = radar::Polarization(index);
+                }},
+            .purpose = "polarization of the radar"},
+           sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
+           sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
+           number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
+                       "wind direction factor; 0.2: at small grazing angles 3 dB more upwind and 3 dB less "
+                       "downwind at X band; 0: no effect"),
+           number_slot(
+               "texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
+               "shape parameter of the sea's texture; small = spiky, 0 = none; left out: by grazing angle, resolution "
+               "cell, wind and polarization, in patch maps 4"),
+           {.name = "model",
+            .binding = ChoiceSlot{
+                kSeaModels, [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.model); },
+                [](ConfigurationBuilder& builder, int index) {
+                  builder.radar.world.sea.model = radar::SeaModel(index);
+                }},
+            .purpose = "nathanson: the NRL model with a correction fitted to Nathanson's table of X band, for "
+                       "frequencies of Receiver from 8 to 12 GHz"},
+           number_slot("textureLife", "s", 0, 3600, {YARS_FIELD(radar.world.sea.texture_life_s)},
+                       "the texture moves with the waves, and a patch of it lasts so long; 0: fixed to the ground"),
+           {.name = "specular",
+            .binding = BooleanSlot{YARS_FIELD(radar.world.sea.specular)},
+            .purpose = "echo of level facets of the sea, above 60 degrees of grazing angle, by the wind"}},
       .check_at_end = check_sea_model};
 }
 

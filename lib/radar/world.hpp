@@ -58,9 +58,14 @@ struct SeaConfiguration {
   std::vector<double> horizontal{-73.0, 20.781, 7.351, 25.65, 0.0054};
   std::vector<double> vertical{-50.796, 25.93, 0.7093, 21.588, 0.00211};
   double wind_factor = 0.2;  // factor of the upwind term of the GIT sea clutter model; 0 = no effect of wind direction
-  double texture = 4.0;      // shape parameter of the gamma-distributed texture; 0 = none
+  // Shape parameter of the gamma-distributed texture; 0: none; kNotGiven: by grazing angle, resolution cell, wind and
+  // polarization (docs/spec/physics.md#sea). Patch maps then have kMapTexture.
+  double texture = kNotGiven;
+  static constexpr double kMapTexture = 4.0;
   // nathanson: with a correction fitted to Nathanson's table at 9.3 GHz, for 8 to 12 GHz (docs/spec/physics.md#sea)
   SeaModel model = SeaModel::nrl;
+  double texture_life_s = 5.0;  // the texture moves with the waves and lives for this time; 0: fixed to the ground
+  bool specular = true;         // echo of facets normal to the ray, above 60 degrees grazing
 };
 
 // Rain cell (shower): a vertical cylinder. Return and attenuation of the rain are greatest at the axis. They are zero

@@ -32,27 +32,55 @@ GroundGrid make_ground_grid(double edge_m) {
   return grid;
 }
 
+TextureDrift make_texture_drift(const GroundGrid& grid, double north_m, double east_m, double lives) {
+  const double parts_per_m = grid.rows_per_degree / kGridMetresPerDegree;
+  // A position has the cell from where the texture came. A drift of 0 is in the middle of the period.
+  const auto back = [](double parts) {
+    const double periods = 0.5 - parts / TextureDrift::kPeriod;
+    return TextureDrift::kPeriod * (periods - std::floor(periods));
+  };
+  const double rows = back(north_m * parts_per_m), columns = back(east_m * parts_per_m);
+  TextureDrift drift;
+  drift.row = static_cast<std::int32_t>(rows);
+  drift.column = static_cast<std::int32_t>(columns);
+  drift.row_part = rows - std::floor(rows);
+  drift.column_part = columns - std::floor(columns);
+  const double age = std::floor(256.0 * lives);
+  drift.age = static_cast<std::uint32_t>(static_cast<std::int64_t>(age));
+  drift.moves = true;
+  return drift;
+}
+
 std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position) {
+  return drifted_bits(grid, position, {});
+}
+
+std::uint32_t drifted_bits(const GroundGrid& grid, geo::GeoPoint position, const TextureDrift& drift) {
   const double north_deg = position.latitude_deg + 90.0;
   const auto band = static_cast<std::size_t>(std::clamp(north_deg, 0.0, 179.0));
   const double turns = position.longitude_deg / 360.0 + 0.5;
   // The integers are signed, because SIMD converts floating point directly to signed integers only.
-  const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
+  const double rows = std::max(0.0, north_deg * grid.rows_per_degree) + drift.row_part;
+  const auto row = static_cast<std::uint32_t>(static_cast<std::int32_t>(rows) + drift.row);
   const auto column_of = [&](double columns) {
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>((turns - std::floor(turns)) * columns));
+    const double east = (turns - std::floor(turns)) * columns + drift.column_part;
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(east) + drift.column);
   };
   double columns = grid.columns[band];
   std::uint32_t column = column_of(columns);
-  const std::uint32_t part = random::lowbias32((static_cast<std::uint32_t>(row) * kGoldenSection + column) ^ kPartKey);
-  const std::uint32_t cell_row = (static_cast<std::uint32_t>(row) + (part >> 30U)) / kPartsPerCell;
+  const std::uint32_t part = random::lowbias32((row * kGoldenSection + column) ^ kPartKey);
+  const std::uint32_t cell_row = (row + (part >> 30U)) / kPartsPerCell;
   if (std::abs(position.latitude_deg) > kPolar_deg) {
-    const double middle_deg = (cell_row + 0.5) * kPartsPerCell / grid.rows_per_degree - 90.0;
-    columns = columns_at(grid, std::clamp(middle_deg, -90.0, 90.0));
+    const double middle_row = (cell_row + 0.5) * kPartsPerCell - drift.row;
+    columns = columns_at(grid, std::clamp(middle_row / grid.rows_per_degree - 90.0, -90.0, 90.0));
     column = column_of(columns);
   }
   std::uint32_t cell_column = (column + (part >> 28U & 3U)) / kPartsPerCell;
-  if (cell_column * kPartsPerCell >= static_cast<std::uint32_t>(columns)) cell_column = 0;
-  return random::lowbias32(cell_row * kGoldenSection + cell_column);
+  if (!drift.moves && cell_column * kPartsPerCell >= static_cast<std::uint32_t>(columns)) cell_column = 0;
+  const std::uint32_t cell = cell_row * kGoldenSection + cell_column;
+  if (!drift.moves) return random::lowbias32(cell);
+  const std::uint32_t life = (drift.age + (random::lowbias32(cell ^ kLifeSection) >> 24U)) >> 8U;
+  return random::lowbias32(cell + life * kLifeSection);
 }
 
 namespace {

@@ -74,6 +74,23 @@ inline constexpr double kGridMetresPerDegree = 60.0 * geo::kMetresPerNauticalMil
 // 10 % up to the last kilometres before a pole.
 GroundGrid make_ground_grid(double edge_m);
 
+// Texture that moves over the ground and changes: that of the sea, whose cells move with the waves. Each cell gets
+// other bits once a life, and each at a time of its own, so that the sea's statistics are the same at all times.
+struct TextureDrift {
+  std::int32_t row = 0, column = 0;            // whole parts of the grid, in [0, kPeriod), that the texture has moved
+  double row_part = 0.0, column_part = 0.0;    // the rest, in [0, 1)
+  std::uint32_t age = 0;                       // sim time in 256ths of a life
+  bool moves = false;                          // false: as the ground
+  static constexpr double kPeriod = 16777216;  // [parts] at most 2^24 parts of 1/4 m are 4,000 km
+};
+// `north_m` and `east_m`: way of the texture; the position has the cell that was there before.
+TextureDrift make_texture_drift(const GroundGrid& grid, double north_m, double east_m, double lives);
+// Bits of the cell that is at a position after a drift.
+std::uint32_t drifted_bits(const GroundGrid& grid, geo::GeoPoint position, const TextureDrift& drift);
+// Factor of the number of a cell's life on the number that is hashed, and key of the time at which it begins. Any odd
+// number serves.
+inline constexpr std::uint32_t kLifeSection = 0x85ebca6bU;
+
 // 32 random bits of the cell at a position. The longitude is any finite number; the latitude is within +-90 degrees.
 std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position);
 

@@ -40,7 +40,12 @@ struct GroundInputs {
   const float* levels = nullptr;           // levels of texture, kTextureLevels for each entry; factors of mean 1
   const std::int32_t* rural = nullptr;     // first entry of `levels` of rural land, by sample
   const std::int32_t* even = nullptr;      // the same of even land
-  std::int32_t sea_entry = 0;              // the same of the sea
+  std::int32_t sea_entry = 0;              // the same of the sea, if `sea_steps` is null
+  const float* sea_steps = nullptr;        // step of TextureSteps of the sea across 45 degrees of wind, by sample
+  float sea_turn = 0.0F;                   // added to the steps at the sweep's azimuth
+  TextureDrift drift;                      // of the sea's texture
+  float glint = 0.0F;                      // |R|^2 / s^2 of the specular echo of the sea; 0: none
+  float glint_octaves = 0.0F;              // log2(e) / s^2
   std::uint32_t textured = 0;              // set of land materials with texture
   std::uint32_t configured = 0;            // set of materials whose entry is that of `tables`
   std::uint32_t even_kinds = 0;            // set of materials of even land
@@ -61,10 +66,12 @@ struct TextureDegree {
   std::int32_t cells_around = 1;                  // cells round the earth
   bool polar = false;                             // beyond kPolar_deg
 };
-TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east);
+TextureDegree texture_degree(const GroundInputs& ground, const TextureDrift& drift, float cells_north,
+                             float cells_east);
 
-// ground_bits() of `count` samples from `first` on.
-void polar_bits(const GroundInputs& ground, std::size_t first, std::size_t count, std::int32_t* bits);
+// drifted_bits() of `count` samples from `first` on.
+void polar_bits(const GroundInputs& ground, const TextureDrift& drift, std::size_t first, std::size_t count,
+                std::int32_t* bits);
 
 // True if any of the first `count` entries is above 0. No entry beyond them is read.
 bool any_positive(std::size_t count, const float* values);

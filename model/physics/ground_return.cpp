@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/world.hpp"
@@ -35,34 +36,65 @@ LandTextures::LandTextures(const RadarParameters& parameters)
     const std::uint32_t bit = 1U << code;
     if (land_kind(code) == LandKind::even) even |= bit;
     if (!(shapes[code] <= 0.0)) textured |= bit;
-    if (std::isnan(shapes[code])) continue;
-    configured |= bit;
+    if (std::isnan(shapes[code]) && code != kWater) continue;
+    if (!std::isnan(shapes[code])) configured |= bit;
     entry[code] = TextureSteps::entry(0.0);
     if (shapes[code] <= 0.0) continue;
+    const double shape = std::isnan(shapes[code]) ? radar::SeaConfiguration::kMapTexture : shapes[code];
     // Codes with equal shapes have equal levels.
     const auto equal = std::find(shapes.begin(), shapes.begin() + static_cast<std::ptrdiff_t>(code), shapes[code]);
     const auto equal_code = static_cast<std::size_t>(equal - shapes.begin());
     entry[code] = equal_code < code ? entry[equal_code] : static_cast<std::int32_t>(levels.size());
     if (equal_code < code) continue;
-    const TextureLevels made = make_texture_levels(shapes[code]);
+    const TextureLevels made = make_texture_levels(shape);
     levels.insert(levels.end(), made.begin(), made.end());
   }
 }
 
+TextureDrift SeaTexture::drift(const SampleTextures& samples, geo::Duration sim_time) const {
+  if (!(life_s > 0.0) || !samples.has_beam()) return {};
+  const double time_s = sea_texture_time(sim_time).seconds();
+  return make_texture_drift(samples.grid(), north_mps * time_s, east_mps * time_s, time_s / life_s);
+}
+
+namespace {
+SeaTexture make_sea_texture(const RadarParameters& parameters, const SeaReturn& sea) {
+  const double speed_mps = wave_speed(geo::Speed::metres_per_second(sea.wind_mps)).metres_per_second();
+  const double from_rad = sea.wind_from.radians();
+  return {-speed_mps * std::cos(from_rad), -speed_mps * std::sin(from_rad), parameters.world.sea.texture_life_s};
+}
+}  // namespace
+
 SurfaceReturn::SurfaceReturn(const RadarParameters& parameters)
-    : land_(make_land_return(parameters)),
-      sea_(make_sea_return(parameters)),
-      textures_(parameters),
-      samples_(parameters) {}
+    : land_(make_land_return(parameters)), textures_(parameters), samples_(parameters) {
+  use_sea(parameters);
+}
+
+void SurfaceReturn::use_sea(const RadarParameters& parameters) {
+  sea_ = make_sea_return(parameters);
+  sea_texture_ = make_sea_texture(parameters, sea_);
+}
+
+void SurfaceReturn::use_texture(const TextureSweep& sweep, geo::Duration sim_time) {
+  samples_.use(sweep);
+  drift_ = sea_texture_.drift(samples_, sim_time);
+}
 
 double SurfaceReturn::texture(std::size_t material, const Facet& facet) const {
   const std::uint32_t bit = 1U << material;
   if ((textures_.textured & bit) == 0) return 1.0;
-  const LandKind kind = (textures_.even & bit) != 0 ? LandKind::even : LandKind::rural;
-  const std::int32_t entry =
-      (textures_.configured & bit) != 0 ? textures_.entry[material] : samples_.land(kind)[facet.sample];
-  const std::uint32_t level = ground_bits(samples_.grid(), facet.position) >> 24U;
-  return static_cast<double>(textures_.levels[static_cast<std::uint32_t>(entry) + level]);
+  const TextureDrift drift = material == kWater ? drift_ : TextureDrift{};
+  const std::uint32_t level = drifted_bits(samples_.grid(), facet.position, drift) >> 24U;
+  const auto factor = [&](std::int32_t entry) {
+    return static_cast<double>(textures_.levels[static_cast<std::uint32_t>(entry) + level]);
+  };
+  const bool by_law = samples_.has_beam() || material != kWater;
+  if ((textures_.configured & bit) != 0 || !by_law) return factor(textures_.entry[material]);
+  if (material == kWater) {
+    const double turn = TextureSteps::kMinShape * sea_turn(std::cos((facet.azimuth - sea_.wind_from).radians()));
+    return factor(TextureSteps::entry(std::exp2(samples_.sea()[facet.sample] / TextureSteps::kPerOctave) * turn));
+  }
+  return factor(samples_.land((textures_.even & bit) != 0 ? LandKind::even : LandKind::rural)[facet.sample]);
 }
 
 SurfaceReturn::Reflectivity SurfaceReturn::at(const Facet& facet) const {
@@ -128,6 +160,12 @@ Ground::Ground(const RadarParameters& parameters, std::size_t samples)
 void Ground::use_sea(const RadarParameters& parameters) {
   const SeaReturn sea = make_sea_return(parameters);
   sea_ = make_sea_table(sea);
+  sea_texture_ = make_sea_texture(parameters, sea);
+  inputs_.glint = 0.0F;
+  if (sea.slope_variance > 0.0) {
+    inputs_.glint = static_cast<float>(kSeaReflection / sea.slope_variance);
+    inputs_.glint_octaves = static_cast<float>(std::numbers::log2e / sea.slope_variance);
+  }
   const double wind_rad = sea.wind_from.radians();
   wind_north_ = std::cos(wind_rad);
   wind_east_ = std::sin(wind_rad);
@@ -141,8 +179,11 @@ void Ground::resize(std::size_t samples) {
   sea_sigma0_.assign(codes_.size(), 0.0F);
 }
 
-void Ground::use_texture(const TextureSweep& sweep) {
+void Ground::use_texture(const TextureSweep& sweep, geo::Duration sim_time) {
   samples_.use(sweep);
+  inputs_.drift = sea_texture_.drift(samples_, sim_time);
+  const bool sea_law = sweep.has_beam() && (textures_.configured >> kWater & 1U) == 0;
+  inputs_.sea_steps = sea_law ? samples_.sea() : nullptr;
   const std::uint32_t by_law = sweep.has_beam() ? ~0U : textures_.configured;
   inputs_.textured = textures_.textured & by_law & ~(1U << kWater);
 }
@@ -160,6 +201,8 @@ const simd::GroundInputs* Ground::prepare(const SweepGeometry& geometry, const t
   inputs_.wall_gain = wall_gain_.data();
   inputs_.sea = &sea_;
   inputs_.upwind = static_cast<float>(azimuth.north * wind_north_ + azimuth.east * wind_east_);
+  inputs_.sea_turn =
+      static_cast<float>(TextureSteps::kPerOctave * std::log2(sea_turn(static_cast<double>(inputs_.upwind))));
   inputs_.sigma0 = sigma0_.data();
   inputs_.grid = &samples_.grid();
   inputs_.rural = samples_.land(LandKind::rural);

@@ -40,6 +40,15 @@ struct LandTextures {
   std::uint32_t configured = 0, even = 0, textured = 0;
 };
 
+// Motion of the sea's texture: with the waves, downwind.
+struct SeaTexture {
+  double north_mps = 0.0, east_mps = 0.0;
+  double life_s = 0.0;  // 0: the texture is fixed to the ground
+
+  // None without a beam, as in patch maps.
+  TextureDrift drift(const SampleTextures& samples, geo::Duration sim_time) const;
+};
+
 // Reflectivity of the ground at one position, in double precision, for the algorithm `reference`.
 // Land return depends on material and cardinal effect (stronger return of walls that face the radar). Sea return
 // depends on wind and grazing angle. Texture (clutter.hpp) multiplies both.
@@ -47,10 +56,10 @@ class SurfaceReturn {
  public:
   explicit SurfaceReturn(const RadarParameters& parameters);
   // Replaces sea state and wind.
-  void use_sea(const RadarParameters& parameters) { sea_ = make_sea_return(parameters); }
+  void use_sea(const RadarParameters& parameters);
 
   // Sets the texture of the samples. Call it once a sweep.
-  void use_texture(const TextureSweep& sweep) { samples_.use(sweep); }
+  void use_texture(const TextureSweep& sweep, geo::Duration sim_time = {});
 
   struct Reflectivity {
     double gamma = 0.0;   // of the land, times its fraction: cross section per area normal to the ray
@@ -63,6 +72,8 @@ class SurfaceReturn {
 
   LandReturn land_;
   SeaReturn sea_;
+  SeaTexture sea_texture_;
+  TextureDrift drift_;
   LandTextures textures_;
   SampleTextures samples_;
 };
@@ -79,7 +90,7 @@ class Ground {
   void resize(std::size_t samples);
 
   // Sets the texture of the samples. Call it once a sweep.
-  void use_texture(const TextureSweep& sweep);
+  void use_texture(const TextureSweep& sweep, geo::Duration sim_time = {});
 
   // Buffer of material codes. The caller fills it for prepare() and reflect(). Its size is samples + kPairSlack.
   memory::CacheAlignedVector<std::int32_t>& materials() { return codes_; }
@@ -103,6 +114,7 @@ class Ground {
 
   LandReturn land_;
   SeaTable sea_;
+  SeaTexture sea_texture_;
   double wind_north_ = 1.0, wind_east_ = 0.0;  // unit vector in the direction that the wind blows from
   simd::MaterialTables tables_;
   simd::GroundInputs inputs_;

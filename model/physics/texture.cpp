@@ -7,12 +7,17 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/fidelity.hpp"
+#include "lib/radar/world.hpp"
 #include "model/physics/ray.hpp"
 
 namespace yars::model::physics {
 
+double TextureSteps::steps(double shape) {
+  return kPerOctave * std::log2(shape / kMinShape);
+}
+
 std::int32_t TextureSteps::entry(double shape) {
-  const double step = std::round(kPerOctave * std::log2(shape / kMinShape));
+  const double step = std::round(steps(shape));
   const int known = shape > 0.0 && step < kShapes ? std::max(0, static_cast<int>(step)) : kNone;
   return known * static_cast<std::int32_t>(kTextureLevels);
 }
@@ -65,6 +70,17 @@ double weibull_slope(LandKind kind, double grazing_deg, double cell_m2) {
   return 1.0 + (rural_slope(grazing_deg) - 1.0) * share * area;
 }
 
+double sea_shape(radar::Polarization polarization, double grazing_deg, double cell_m2) {
+  constexpr double kMin_deg = 0.1, kMax_deg = 10.0;  // limits of the measurements
+  const double k = polarization == radar::Polarization::vertical ? 1.39 : 2.09;
+  const double angle_deg = std::clamp(grazing_deg, kMin_deg, kMax_deg);
+  return std::pow(10.0, 2.0 / 3.0 * std::log10(angle_deg) + 5.0 / 8.0 * std::log10(cell_m2) - k);
+}
+
+double sea_turn(double cosine) {
+  return std::pow(10.0, (1.0 - 2.0 * cosine * cosine) / 3.0);
+}
+
 double inverse_shape_of_slope(double slope) {
   const double mean = std::tgamma(1.0 + slope);
   return 0.5 * std::tgamma(1.0 + 2.0 * slope) / (mean * mean) - 1.0;
@@ -85,6 +101,7 @@ double cells_in_sample(const RadarParameters& parameters, double width) {
 SampleTextures::SampleTextures(const RadarParameters& parameters)
     : slant_range_(parameters.geometry.slant_range),
       pulse_smear_(parameters.fidelity.pulse_smear),
+      polarization_(parameters.world.sea.polarization),
       sub_beams_(parameters.fidelity.sub_beams),
       effective_radius_m_(parameters.geometry.earth == radar::EarthModel::flat
                               ? std::numeric_limits<double>::infinity()
@@ -97,6 +114,7 @@ void SampleTextures::resize(std::size_t samples) {
   samples_ = samples;
   sweep_ = {};
   for (auto& entries : land_) entries.assign(samples + kPairSlack, TextureSteps::entry(0.0));
+  sea_.assign(samples + kPairSlack, static_cast<float>(TextureSteps::kNone));
 }
 
 void SampleTextures::use(const TextureSweep& sweep) {
@@ -133,6 +151,7 @@ void SampleTextures::update() {
     const double cosine = std::max(std::cos(at.grazing_deg * geo::kRadiansPerDegree), 0.1);
     const double area_m2 = width_m * sweep_.pulse_length_m / cosine;
     const double cells = cells_in_sample(sub_beams_, pulse_smear_, width_m / cell_m_);
+    sea_[i] = static_cast<float>(TextureSteps::steps(sea_shape(polarization_, at.grazing_deg, area_m2) / cells));
     for (const LandKind kind : {LandKind::rural, LandKind::even})
       land_[static_cast<std::size_t>(kind)][i] =
           TextureSteps::entry(1.0 / (cells * inverse_shape_of_slope(weibull_slope(kind, at.grazing_deg, area_m2))));

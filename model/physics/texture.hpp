@@ -8,16 +8,25 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "lib/geo/quantity.hpp"
 #include "lib/memory/line_vector.hpp"
 #include "model/physics/clutter.hpp"
 #include "model/physics/radar_parameters.hpp"
 
 namespace yars::model::physics {
+
+// Sim time of the sea's texture: it stands still for steps of two seconds, so that rays that are kept for later sweeps
+// equal new ones (rbm::Beam). A smaller step makes Beam measure more rays.
+inline geo::Duration sea_texture_time(geo::Duration sim_time) {
+  constexpr double kStep_s = 2.0;
+  return geo::Duration::seconds(kStep_s * std::floor(sim_time.seconds() / kStep_s));
+}
 
 // What the texture of a sweep's samples depends on.
 struct TextureSweep {
@@ -40,6 +49,8 @@ struct TextureSteps {
 
   // First entry of the step nearest to a shape. A shape of 0 or above the table has no texture.
   static std::int32_t entry(double shape);
+  // Number of steps from that of kMinShape, not rounded.
+  static double steps(double shape);
   static const std::array<float, kEntries>& levels();
 };
 
@@ -57,6 +68,14 @@ double weibull_slope(LandKind kind, double grazing_deg, double cell_m2);
 // v = Gamma(1 + 2 a) / Gamma(1 + a)^2 - 1 = (1 + 1/shape) 2 - 1. 0 for a slope of 1.
 double inverse_shape_of_slope(double slope);
 
+// Shape of the K distribution of the sea, for one look: lg shape = 2/3 lg p + 5/8 lg A + d - k, p the grazing angle
+// [deg] held within 0.1 and 10, A the area of the resolution cell [m^2], k = 1.39 (vertical) or 2.09 (horizontal).
+// d = -cos(2 t) / 3, t between ray and wind: sea_turn().
+// Source: Ward, Tough and Watts, "Sea Clutter", 2006, p. 237, as quoted by an open program (docs/spec/physics.md#sea).
+double sea_shape(radar::Polarization polarization, double grazing_deg, double cell_m2);  // with d = 0
+// 10^d of the cosine of the angle between ray and wind.
+double sea_turn(double cosine);
+
 // Texture cells whose mean one sample is, so that the texture of a cell is that many times as strong as the sample's.
 // `width`: width of the beam over the edge of a texture cell. Source: fit to sweeps (tests/truth/texture_test.cpp).
 double cells_in_sample(const RadarParameters& parameters, double width);
@@ -70,9 +89,10 @@ class SampleTextures {
   // Sets the number of samples of the following sweeps.
   void resize(std::size_t samples);
 
-  // Edge of the texture's cells, and their grid.
+  bool has_beam() const { return sweep_.has_beam(); }
   const GroundGrid& grid() const { return grid_; }
   // First entries in TextureSteps, by sample.
+  const float* sea() const { return sea_.data(); }  // steps of the sea with d = 0
   const std::int32_t* land(LandKind kind) const { return land_[static_cast<std::size_t>(kind)].data(); }
 
  private:
@@ -83,6 +103,7 @@ class SampleTextures {
   void update();
 
   const bool slant_range_, pulse_smear_;
+  const radar::Polarization polarization_;
   const int sub_beams_;
   const double effective_radius_m_;
   std::size_t samples_;
@@ -90,6 +111,7 @@ class SampleTextures {
   double cell_m_ = 0.0;
   GroundGrid grid_;
   std::array<memory::CacheAlignedVector<std::int32_t>, 2> land_;
+  memory::CacheAlignedVector<float> sea_;
 };
 
 }  // namespace yars::model::physics

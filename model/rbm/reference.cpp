@@ -48,7 +48,8 @@ std::size_t Reference::measure(const physics::SweepGeometry& geometry, const phy
   physics::sample_distances(fidelity_, earth, geometry, terrain, distance_m_);
   const std::size_t pending = read_terrain(geometry, terrain);
   const double spacing_m = geometry.range.metres() / static_cast<double>(samples_.size());
-  surface_.use_texture({receiver.pulse_length_m, spacing_m, geometry.altitude.metres(), receiver.azimuth_cell_rad});
+  surface_.use_texture({receiver.pulse_length_m, spacing_m, geometry.altitude.metres(), receiver.azimuth_cell_rad},
+                       geometry.sim_time);
   walk_ground(geometry, receiver, physics::GroundWalk(geometry, earth, terrain, fidelity_.interpolation));
   if (scene_covers_.enter(geometry, environment.scenes)) add_covers(geometry, *environment.scenes);
   rain_.enter(geometry);
