@@ -142,14 +142,17 @@ FormSchema land() {
   return {
       .name = "Land",
       .purpose = "radar return of land: sigma0 = gamma sin(grazing angle)",
-      .slots = {number_slot("frequencySlope", "dB", -20, 20, {YARS_FIELD(radar.world.land.frequency_slope_db)},
-                            "increase of every gamma for a tenfold frequency"),
-                number_slot("referenceFrequency", "GHz", 1, 40, {YARS_FIELD(radar.world.land.reference_frequency_ghz)},
-                            "frequency for which the gammas are given"),
-                number_slot("streetWidth", "deg", 0.1, 45, {YARS_FIELD(radar.world.land.cardinal_width_deg)},
-                            "cardinal effect (stronger return of walls that face the radar): full width at half power"),
-                number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.land.texture)},
-                            "shape parameter of the texture of land without material; small = spiky, 0 = none")}};
+      .slots = {
+          number_slot("frequencySlope", "dB", -20, 20, {YARS_FIELD(radar.world.land.frequency_slope_db)},
+                      "increase of every gamma for a tenfold frequency"),
+          number_slot("referenceFrequency", "GHz", 1, 40, {YARS_FIELD(radar.world.land.reference_frequency_ghz)},
+                      "frequency for which the gammas are given"),
+          number_slot("streetWidth", "deg", 0.1, 45, {YARS_FIELD(radar.world.land.cardinal_width_deg)},
+                      "cardinal effect (stronger return of walls that face the radar): full width at half power"),
+          number_slot(
+              "texture", "", 0, 100, {YARS_FIELD(radar.world.land.texture)},
+              "shape parameter of the texture of land without material; small = spiky, 0 = none; left out: by grazing "
+              "angle and resolution cell")}};
 }
 
 std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& builder) {
@@ -158,8 +161,8 @@ std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& bu
   return ConstraintViolation{"code", "a code other than 6 (water; the form Sea sets its return)", "6"};
 }
 
-// Adds a material, or changes the one with the same code. Omitted slots keep their value; in a new material they are 0
-// or empty.
+// Adds a material, or changes the one with the same code. Omitted slots keep their value. In a new material they are 0
+// or empty, and the texture is not given.
 void end_material(ConfigurationBuilder& builder) {
   auto& materials = builder.radar.world.land.materials;
   const radar::Material& given = builder.material;
@@ -179,34 +182,35 @@ void end_material(ConfigurationBuilder& builder) {
 }
 
 FormSchema material() {
-  return {
-      .name = "Material",
-      .purpose = "radar return of a surface material",
-      .slots = {{.name = "code",
-                 .lowest = 1,
-                 .highest = radar::kMaterials - 1,
-                 .binding = IntegerSlot{YARS_FIELD(material.code)},
-                 .purpose = "surface material code of the culture; 0 is land without culture, 6 is water"},
-                {.name = "name", .binding = TextSlot{YARS_FIELD(material.name)}, .purpose = "name, free text"},
-                number_slot("gamma", "dB", -60, 30, {YARS_FIELD(material.gamma_db)},
-                            "gamma: sigma0 = gamma sin(grazing angle); left out: 0 in a new material, else unchanged"),
-                number_slot("cardinal", "dB", 0, 30, {YARS_FIELD(material.cardinal_db)},
-                            "additional return of walls that face the radar; left out: 0 in a new material, else "
-                            "unchanged"),
-                number_slot("texture", "", 0, 100, {YARS_FIELD(material.texture)},
-                            "shape parameter of its texture; small = spiky, 0 = none; left out: 0 in a new "
-                            "material, else unchanged")},
-      .part_of_value = true,
-      .begin =
-          [](ConfigurationBuilder& builder) {
-            builder.material = {
-                .code = 0, .name = {}, .gamma_db = kNotGiven, .cardinal_db = kNotGiven, .texture = kNotGiven};
-          },
-      .check = check_material,
-      .end = end_material,
-      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.land.materials.size(); },
-      .select = [](ConfigurationBuilder& builder,
-                   std::size_t index) { builder.material = builder.radar.world.land.materials[index]; }};
+  return {.name = "Material",
+          .purpose = "radar return of a surface material",
+          .slots =
+              {{.name = "code",
+                .lowest = 1,
+                .highest = radar::kMaterials - 1,
+                .binding = IntegerSlot{YARS_FIELD(material.code)},
+                .purpose = "surface material code of the culture; 0 is land without culture, 6 is water"},
+               {.name = "name", .binding = TextSlot{YARS_FIELD(material.name)}, .purpose = "name, free text"},
+               number_slot("gamma", "dB", -60, 30, {YARS_FIELD(material.gamma_db)},
+                           "gamma: sigma0 = gamma sin(grazing angle); left out: 0 in a new material, else unchanged"),
+               number_slot("cardinal", "dB", 0, 30, {YARS_FIELD(material.cardinal_db)},
+                           "additional return of walls that face the radar; left out: 0 in a new material, else "
+                           "unchanged"),
+               number_slot(
+                   "texture", "", 0, 100, {YARS_FIELD(material.texture)},
+                   "shape parameter of its texture; small = spiky, 0 = none; left out: unchanged, in a new material by "
+                   "grazing angle and resolution cell")},
+          .part_of_value = true,
+          .begin =
+              [](ConfigurationBuilder& builder) {
+                builder.material = {
+                    .code = 0, .name = {}, .gamma_db = kNotGiven, .cardinal_db = kNotGiven, .texture = kNotGiven};
+              },
+          .check = check_material,
+          .end = end_material,
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.land.materials.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.material = builder.radar.world.land.materials[index]; }};
 }
 
 SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(ConfigurationBuilder&)) {
@@ -221,32 +225,40 @@ FormSchema sea() {
   return {
       .name = "Sea",
       .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
-      .slots = {value_slot("state", values::WorldState::sea_state, YARS_FIELD(radar.world.sea.state)),
-                value_slot("windSpeed", values::WorldState::wind_speed, YARS_FIELD(radar.world.sea.wind_speed_mps)),
-                value_slot("windFrom", values::WorldState::wind_from, YARS_FIELD(radar.world.sea.wind_from_deg)),
-                {.name = "polarization",
-                 .binding = ChoiceSlot{
-                     kPolarizations,
-                     [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
-                     [](ConfigurationBuilder& builder, int index) {
-                       builder.radar.world.sea.polarization = radar::Polarization(index);
-                     }},
-                 .purpose = "polarization of the radar"},
-                sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
-                sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
-                number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
-                            "wind direction factor; 0.2: at small grazing angles 3 dB more upwind and 3 dB less "
-                            "downwind at X band; 0: no effect"),
-                number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
-                            "shape parameter of the sea's texture; small = spiky, 0 = none"),
-                {.name = "model",
-                 .binding = ChoiceSlot{
-                     kSeaModels, [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.model); },
-                     [](ConfigurationBuilder& builder, int index) {
-                       builder.radar.world.sea.model = radar::SeaModel(index);
-                     }},
-                 .purpose = "nathanson: the NRL model with a correction fitted to Nathanson's table of X band, for "
-                            "frequencies of Receiver from 8 to 12 GHz"}},
+      .slots =
+          {value_slot("state", values::WorldState::sea_state, YARS_FIELD(radar.world.sea.state)),
+           value_slot("windSpeed", values::WorldState::wind_speed, YARS_FIELD(radar.world.sea.wind_speed_mps)),
+           value_slot("windFrom", values::WorldState::wind_from, YARS_FIELD(radar.world.sea.wind_from_deg)),
+           {.name = "polarization",
+            .binding = ChoiceSlot{
+                kPolarizations,
+                [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
+                [](ConfigurationBuilder& builder, int index) {
+                  builder.radar.world.sea.polarization = radar::Polarization(index);
+                }},
+            .purpose = "polarization of the radar"},
+           sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
+           sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
+           number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
+                       "wind direction factor; 0.2: at small grazing angles 3 dB more upwind and 3 dB less "
+                       "downwind at X band; 0: no effect"),
+           number_slot(
+               "texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
+               "shape parameter of the sea's texture; small = spiky, 0 = none; left out: by grazing angle, resolution "
+               "cell, wind and polarization, in patch maps 4"),
+           {.name = "model",
+            .binding = ChoiceSlot{
+                kSeaModels, [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.model); },
+                [](ConfigurationBuilder& builder, int index) {
+                  builder.radar.world.sea.model = radar::SeaModel(index);
+                }},
+            .purpose = "nathanson: the NRL model with a correction fitted to Nathanson's table of X band, for "
+                       "frequencies of Receiver from 8 to 12 GHz"},
+           number_slot("textureLife", "s", 0, 3600, {YARS_FIELD(radar.world.sea.texture_life_s)},
+                       "the texture moves with the waves, and a patch of it lasts so long; 0: fixed to the ground"),
+           {.name = "specular",
+            .binding = BooleanSlot{YARS_FIELD(radar.world.sea.specular)},
+            .purpose = "echo of level facets of the sea, above 60 degrees of grazing angle, by the wind"}},
       .check_at_end = check_sea_model};
 }
 

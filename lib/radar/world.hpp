@@ -29,7 +29,9 @@ struct Material {
   std::string name;
   double gamma_db = 0.0;     // [dB] gamma at LandConfiguration::reference_frequency_ghz
   double cardinal_db = 0.0;  // [dB] cardinal effect: additional return of walls that face the radar
-  double texture = 0.0;      // shape parameter of the gamma-distributed texture; a smaller shape varies more; 0 = none
+  // Shape parameter of the gamma-distributed texture. A smaller shape varies more; 0: none; kNotGiven: by grazing angle
+  // and resolution cell (docs/spec/physics.md#texture).
+  double texture = kNotGiven;
 };
 
 // Return of land. The gamma of land without culture is ReceiverConfiguration::land_gamma_db.
@@ -37,14 +39,14 @@ struct LandConfiguration {
   double frequency_slope_db = 5.0;        // [dB] increase of every gamma for a tenfold frequency
   double reference_frequency_ghz = 10.0;  // [GHz] frequency at which the configured gammas apply
   double cardinal_width_deg = 6.0;        // [deg] half-power width of the cardinal effect
-  double texture = 0.0;                   // texture of land without culture
+  double texture = kNotGiven;             // texture of land without culture, as Material::texture
   std::vector<Material> materials{
-      {1, "metal", 5.0, 12.0, 1.5},         {2, "part metal", 2.0, 10.0, 2.0},
-      {3, "stone", 0.0, 10.0, 3.0},         {4, "composition", -3.0, 8.0, 4.0},
-      {5, "earthen works", -8.0, 0.0, 0.0}, {7, "sand", -22.0, 0.0, 0.0},
-      {8, "rock", -8.0, 0.0, 0.0},          {9, "asphalt and concrete", -28.0, 0.0, 0.0},
-      {10, "soil", -17.0, 0.0, 0.0},        {11, "marsh", -16.0, 0.0, 0.0},
-      {12, "trees", -12.0, 0.0, 8.0},       {13, "snow and ice", -20.0, 0.0, 0.0}};  // ascending codes
+      {1, "metal", 5.0, 12.0, 1.5},    {2, "part metal", 2.0, 10.0, 2.0},
+      {3, "stone", 0.0, 10.0, 3.0},    {4, "composition", -3.0, 8.0, 4.0},
+      {5, "earthen works", -8.0, 0.0}, {7, "sand", -22.0, 0.0},
+      {8, "rock", -8.0, 0.0},          {9, "asphalt and concrete", -28.0, 0.0},
+      {10, "soil", -17.0, 0.0},        {11, "marsh", -16.0, 0.0},
+      {12, "trees", -12.0, 0.0},       {13, "snow and ice", -20.0, 0.0}};  // ascending codes
 };
 
 // Return of the sea. Source: Gregers-Hansen and Mital, NRL 2012 (DTIC ADA559494), table 2, coefficients c1 to c5.
@@ -56,9 +58,14 @@ struct SeaConfiguration {
   std::vector<double> horizontal{-73.0, 20.781, 7.351, 25.65, 0.0054};
   std::vector<double> vertical{-50.796, 25.93, 0.7093, 21.588, 0.00211};
   double wind_factor = 0.2;  // factor of the upwind term of the GIT sea clutter model; 0 = no effect of wind direction
-  double texture = 4.0;      // shape parameter of the gamma-distributed texture; 0 = none
+  // Shape parameter of the gamma-distributed texture; 0: none; kNotGiven: by grazing angle, resolution cell, wind and
+  // polarization (docs/spec/physics.md#sea). Patch maps then have kMapTexture.
+  double texture = kNotGiven;
+  static constexpr double kMapTexture = 4.0;
   // nathanson: with a correction fitted to Nathanson's table at 9.3 GHz, for 8 to 12 GHz (docs/spec/physics.md#sea)
   SeaModel model = SeaModel::nrl;
+  double texture_life_s = 5.0;  // the texture moves with the waves and lives for this time; 0: fixed to the ground
+  bool specular = true;         // echo of facets normal to the ray, above 60 degrees grazing
 };
 
 // Rain cell (shower): a vertical cylinder. Return and attenuation of the rain are greatest at the axis. They are zero

@@ -125,7 +125,7 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     path_->distance_m[i] = static_cast<float>(fraction * path_m);
     path_sight_.emplace_back(geometry, fraction * path_m);
   }
-  ground_->use_resolution(grid.spacing_m, grid.spacing_m);
+  ground_->use_texture({.pulse_length_m = grid.spacing_m, .spacing_m = grid.spacing_m});
 }
 
 std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geometry, const PolarGrid& grid,

@@ -23,25 +23,71 @@ SpeckleCells speckle_cells(double spacing_m, double pulse_length_m, NoiseState s
   return {static_cast<float>(spacing_m / pulse_length_m), uniform(state.first), uniform(state.second)};
 }
 
+namespace {
+// Parts round the earth at a latitude, those of whole cells.
+double columns_at(const GroundGrid& grid, double latitude_deg) {
+  const double around = 360.0 * grid.rows_per_degree * std::cos(latitude_deg * geo::kRadiansPerDegree);
+  return kPartsPerCell * std::max(1.0, std::round(around / kPartsPerCell));
+}
+}  // namespace
+
 GroundGrid make_ground_grid(double edge_m) {
   GroundGrid grid;
-  grid.rows_per_degree = kGridMetresPerDegree / edge_m;
-  for (std::size_t band = 0; band < grid.columns.size(); ++band) {
-    const double latitude_deg = static_cast<double>(band) - 89.5;
-    const double around = 360.0 * grid.rows_per_degree * std::cos(latitude_deg * geo::kRadiansPerDegree);
-    grid.columns[band] = std::max(1.0, std::round(around));
-  }
+  grid.rows_per_degree = kPartsPerCell * kGridMetresPerDegree / edge_m;
+  for (std::size_t band = 0; band < grid.columns.size(); ++band)
+    grid.columns[band] = columns_at(grid, static_cast<double>(band) - 89.5);
   return grid;
 }
 
+TextureDrift make_texture_drift(const GroundGrid& grid, double north_m, double east_m, double lives) {
+  const double parts_per_m = grid.rows_per_degree / kGridMetresPerDegree;
+  // A position has the cell from where the texture came. A drift of 0 is in the middle of the period.
+  const auto back = [](double parts) {
+    const double periods = 0.5 - parts / TextureDrift::kPeriod;
+    return TextureDrift::kPeriod * (periods - std::floor(periods));
+  };
+  const double rows = back(north_m * parts_per_m), columns = back(east_m * parts_per_m);
+  TextureDrift drift;
+  drift.row = static_cast<std::int32_t>(rows);
+  drift.column = static_cast<std::int32_t>(columns);
+  drift.row_part = rows - std::floor(rows);
+  drift.column_part = columns - std::floor(columns);
+  const double age = std::floor(256.0 * lives);
+  drift.age = static_cast<std::uint32_t>(static_cast<std::int64_t>(age));
+  drift.moves = true;
+  return drift;
+}
+
 std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position) {
+  return drifted_bits(grid, position, {});
+}
+
+std::uint32_t drifted_bits(const GroundGrid& grid, geo::GeoPoint position, const TextureDrift& drift) {
   const double north_deg = position.latitude_deg + 90.0;
   const auto band = static_cast<std::size_t>(std::clamp(north_deg, 0.0, 179.0));
   const double turns = position.longitude_deg / 360.0 + 0.5;
   // The integers are signed, because SIMD converts floating point directly to signed integers only.
-  const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
-  const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
-  return random::lowbias32(static_cast<std::uint32_t>(row) * kGoldenSection + static_cast<std::uint32_t>(column));
+  const double rows = std::max(0.0, north_deg * grid.rows_per_degree) + drift.row_part;
+  const auto row = static_cast<std::uint32_t>(static_cast<std::int32_t>(rows) + drift.row);
+  const auto column_of = [&](double columns) {
+    const double east = (turns - std::floor(turns)) * columns + drift.column_part;
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(east) + drift.column);
+  };
+  double columns = grid.columns[band];
+  std::uint32_t column = column_of(columns);
+  const std::uint32_t part = random::lowbias32((row * kGoldenSection + column) ^ kPartKey);
+  const std::uint32_t cell_row = (row + (part >> 30U)) / kPartsPerCell;
+  if (std::abs(position.latitude_deg) > kPolar_deg) {
+    const double middle_row = (cell_row + 0.5) * kPartsPerCell - drift.row;
+    columns = columns_at(grid, std::clamp(middle_row / grid.rows_per_degree - 90.0, -90.0, 90.0));
+    column = column_of(columns);
+  }
+  std::uint32_t cell_column = (column + (part >> 28U & 3U)) / kPartsPerCell;
+  if (!drift.moves && cell_column * kPartsPerCell >= static_cast<std::uint32_t>(columns)) cell_column = 0;
+  const std::uint32_t cell = cell_row * kGoldenSection + cell_column;
+  if (!drift.moves) return random::lowbias32(cell);
+  const std::uint32_t life = (drift.age + (random::lowbias32(cell ^ kLifeSection) >> 24U)) >> 8U;
+  return random::lowbias32(cell + life * kLifeSection);
 }
 
 namespace {

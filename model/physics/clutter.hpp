@@ -56,19 +56,45 @@ inline std::uint32_t cell_of(std::uint32_t sample, SpeckleCells cells) {
   return static_cast<std::uint32_t>(along + cells.first) + static_cast<std::uint32_t>(along + cells.second);
 }
 
-// Grid of cells of about equal size on the earth. Each cell has its own random bits, which do not change between scans.
-// Rows have equal height in latitude. The number of columns follows the cosine of each degree's middle latitude.
+// Cells of about equal size on the earth. Each cell has its own random bits, which do not change between scans. A cell
+// has no straight edges, so that a picture shows no lattice: the grid has kPartsPerCell parts along an edge of a cell,
+// and each part belongs, by chance, to the cell around it or to the next one.
+// Rows have equal height in latitude. The number of columns follows the cosine of each degree's middle latitude, and of
+// each row's beyond kPolar_deg.
 struct GroundGrid {
-  double rows_per_degree = 0.0;
-  std::array<double, 180> columns{};  // cells round the earth, for each degree of latitude from the south pole
+  double rows_per_degree = 0.0;       // of parts
+  std::array<double, 180> columns{};  // parts round the earth, for each degree of latitude from the south pole
 };
+inline constexpr std::uint32_t kPartsPerCell = 4;
+// Beyond this latitude the cosine changes by more than a tenth in half a degree.
+inline constexpr double kPolar_deg = 84.0;
+// Separates the bits that choose a part's cell from those of the cell.
+inline constexpr std::uint32_t kPartKey = 0x5bd1e995U;
 
 // [m] length of one degree of latitude on the grid: 60 NM, within 0.6 % of the ellipsoid's. The texture of every
 // picture depends on this value.
 inline constexpr double kGridMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 
-// Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude.
+// Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude, and within
+// 10 % up to the last kilometres before a pole.
 GroundGrid make_ground_grid(double edge_m);
+
+// Texture that moves over the ground and changes: that of the sea, whose cells move with the waves. Each cell gets
+// other bits once a life, and each at a time of its own, so that the sea's statistics are the same at all times.
+struct TextureDrift {
+  std::int32_t row = 0, column = 0;            // whole parts of the grid, in [0, kPeriod), that the texture has moved
+  double row_part = 0.0, column_part = 0.0;    // the rest, in [0, 1)
+  std::uint32_t age = 0;                       // sim time in 256ths of a life
+  bool moves = false;                          // false: as the ground
+  static constexpr double kPeriod = 16777216;  // [parts] at most 2^24 parts of 1/4 m are 4,000 km
+};
+// `north_m` and `east_m`: way of the texture; the position has the cell that was there before.
+TextureDrift make_texture_drift(const GroundGrid& grid, double north_m, double east_m, double lives);
+// Bits of the cell that is at a position after a drift.
+std::uint32_t drifted_bits(const GroundGrid& grid, geo::GeoPoint position, const TextureDrift& drift);
+// Factor of the number of a cell's life on the number that is hashed, and key of the time at which it begins. Any odd
+// number serves.
+inline constexpr std::uint32_t kLifeSection = 0x85ebca6bU;
 
 // 32 random bits of the cell at a position. The longitude is any finite number; the latitude is within +-90 degrees.
 std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position);

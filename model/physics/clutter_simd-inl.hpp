@@ -16,6 +16,8 @@
 
 #include "lib/random/counter_rng-inl.hpp"
 #include "model/physics/clutter_simd.hpp"
+#include "model/physics/polynomials-inl.hpp"
+#include "model/physics/texture.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::physics::simd::HWY_NAMESPACE {
@@ -59,11 +61,11 @@ HWY_INLINE V noise_bits(NoiseState state, V cell, std::uint32_t draw) {
 }
 
 // Number [0, 255] of the texture level of the ground cell at each sample: the upper 8 bits of ground_bits(). Cells are
-// found in float from the south-west corner of each one-degree square. Within a centimetre of a cell's edge the level
-// may be that of the neighbouring cell.
+// found in float from the south-west corner of each one-degree square. Within a centimetre of the edge of a part of a
+// cell (GroundGrid) the level may be that of the neighbouring part.
 class TextureCells {
  public:
-  explicit TextureCells(const GroundInputs& in) : in_(in) {}
+  TextureCells(const GroundInputs& in, const TextureDrift& drift) : in_(in), drift_(drift) {}
 
   HWY_INLINE GroundInts levels(std::size_t i) {
     const GroundTag d;
@@ -89,25 +91,47 @@ class TextureCells {
   HWY_INLINE void use_degree(float cells_north, float cells_east) {
     north_ = cells_north;
     east_ = cells_east;
-    degree_ = texture_degree(in_, cells_north, cells_east);
+    degree_ = texture_degree(in_, drift_, cells_north, cells_east);
   }
 
   HWY_INLINE GroundInts levels_in_degree(std::size_t i) const {
     const GroundTag d;
     const hn::RebindToSigned<GroundTag> di;
     const hn::RebindToUnsigned<GroundTag> du;
-    const auto cell = [&](const float* within, float per_degree, float offset, std::int32_t first) {
+    static_assert(kPartsPerCell == 4);
+    if (degree_.polar) {
+      HWY_ALIGN std::int32_t bits[terrain::kRunSlack];
+      polar_bits(in_, drift_, i, hn::Lanes(d), bits);
+      return hn::BitCast(di, hn::ShiftRight<24>(hn::BitCast(du, hn::Load(di, bits))));
+    }
+    const auto part_of = [&](const float* within, float per_degree, float offset, std::int32_t first) {
       const auto on = hn::Add(hn::Mul(hn::LoadU(d, within + i), hn::Set(d, per_degree)), hn::Set(d, offset));
-      return hn::Add(hn::ConvertTo(di, on), hn::Set(di, first));
+      return hn::BitCast(du, hn::Add(hn::ConvertTo(di, on), hn::Set(di, first)));
     };
-    const auto row = cell(in_.positions.north_deg.data(), degree_.rows, degree_.row_offset, degree_.row);
-    const auto column = cell(in_.positions.east_deg.data(), degree_.columns, degree_.column_offset, degree_.column);
-    const auto number = hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, kGoldenSection)), hn::BitCast(du, column));
-    // The last step of lowbias32 does not change the highest eight bits.
-    return hn::BitCast(di, hn::ShiftRight<24>(random::HWY_NAMESPACE::lowbias32_rounds(number)));
+    const auto row = part_of(in_.positions.north_deg.data(), degree_.rows, degree_.row_offset, degree_.row);
+    const auto column = part_of(in_.positions.east_deg.data(), degree_.columns, degree_.column_offset, degree_.column);
+    // The last step of lowbias32 does not change the upper half of the bits.
+    const auto mixed = [&](auto north, auto east, std::uint32_t key) {
+      const auto number = hn::Add(hn::Mul(north, hn::Set(du, kGoldenSection)), east);
+      return random::HWY_NAMESPACE::lowbias32_rounds(hn::Xor(number, hn::Set(du, key)));
+    };
+    const auto part = mixed(row, column, kPartKey);
+    const auto cell_row = hn::ShiftRight<2>(hn::Add(row, hn::ShiftRight<30>(part)));
+    auto cell_column = hn::Add(column, hn::And(hn::ShiftRight<28>(part), hn::Set(du, 3U)));
+    cell_column = hn::ShiftRight<2>(cell_column);
+    const auto around = hn::Eq(cell_column, hn::Set(du, static_cast<std::uint32_t>(degree_.cells_around)));
+    if (!drift_.moves) {
+      const auto bits = mixed(cell_row, hn::IfThenZeroElse(around, cell_column), 0U);
+      return hn::BitCast(di, hn::ShiftRight<24>(bits));
+    }
+    const auto phase = hn::ShiftRight<24>(mixed(cell_row, cell_column, kLifeSection));
+    const auto life = hn::ShiftRight<8>(hn::Add(phase, hn::Set(du, drift_.age)));
+    const auto number = hn::Add(cell_column, hn::Mul(life, hn::Set(du, kLifeSection)));
+    return hn::BitCast(di, hn::ShiftRight<24>(mixed(cell_row, number, 0U)));
   }
 
   const GroundInputs& in_;
+  const TextureDrift drift_;
   float north_ = NAN, east_ = NAN;  // one-degree square of degree_, as in positions.cells_north and cells_east
   TextureDegree degree_;
 };
@@ -151,8 +175,8 @@ class SeaCache {
 
 // Values that the vectors of one sweep reuse.
 struct GroundCache {
-  explicit GroundCache(const GroundInputs& in) : texture(in), sea(in) {}
-  TextureCells texture;
+  explicit GroundCache(const GroundInputs& in) : texture(in, {}), sea_texture(in, in.drift), sea(in) {}
+  TextureCells texture, sea_texture;
   SeaCache sea;
 };
 
@@ -162,6 +186,38 @@ struct GroundReturn {
   GroundFloats sea;   // water * sigma0 * texture, >= 0
   bool wet;           // false: `sea` is 0 in every lane
 };
+
+// First entry of the texture's levels of land.
+HWY_INLINE GroundInts land_entry(const GroundInputs& in, std::size_t i, GroundInts code) {
+  const hn::RebindToSigned<GroundTag> di;
+  const auto of_set = [&](std::uint32_t set) { return hn::RebindMask(di, in_set(set, code)); };
+  auto entry = hn::LoadU(di, in.rural + i);
+  if (in.material == nullptr && (in.configured & 1U) == 0) return entry;
+  entry = hn::IfThenElse(of_set(in.even_kinds), hn::LoadU(di, in.even + i), entry);
+  return hn::IfThenElse(of_set(in.configured), hn::GatherIndex(di, in.tables->entry.data(), code), entry);
+}
+
+// First entry of the texture's levels of the sea.
+HWY_INLINE GroundInts sea_entry(const GroundInputs& in, std::size_t i) {
+  const GroundTag d;
+  const hn::RebindToSigned<GroundTag> di;
+  if (in.sea_steps == nullptr) return hn::Set(di, in.sea_entry);
+  const auto step = hn::Add(hn::LoadU(d, in.sea_steps + i), hn::Set(d, in.sea_turn + 0.5F));
+  constexpr auto kLast = static_cast<float>(TextureSteps::kNone);
+  return hn::ShiftLeft<8>(hn::ConvertTo(di, hn::Min(hn::Max(step, hn::Zero(d)), hn::Set(d, kLast))));
+}
+
+// specular_sigma0() of reflectivity.hpp.
+HWY_INLINE GroundFloats glint(const GroundInputs& in, GroundFloats sine) {
+  const GroundTag d;
+  const auto one = hn::Set(d, 1.0F);
+  const auto held = hn::Max(hn::Min(sine, one), hn::Set(d, kGlintSine));
+  const auto square = hn::Mul(held, held);
+  const auto tangent2 = hn::Div(hn::Sub(one, square), square);
+  const auto share = hn::Min(one, hn::Mul(hn::Sub(held, hn::Set(d, kGlintSine)), hn::Set(d, kGlintRise)));
+  const auto lobe = physics::HWY_NAMESPACE::exp2(d, hn::Neg(hn::Mul(tangent2, hn::Set(d, in.glint_octaves))));
+  return hn::Div(hn::Mul(hn::Mul(share, lobe), hn::Set(d, in.glint)), hn::Mul(square, square));
+}
 
 constexpr std::uint32_t kWaterBit = 1U << static_cast<unsigned>(radar::kWaterMaterial);
 
@@ -184,19 +240,22 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundCache& cache
   const bool some_wet = !hn::AllFalse(d, wet);
   const bool textured_sea = in.textured_sea && some_wet;
   auto level = hn::Zero(di);
-  if (textured_land || textured_sea) level = cache.texture.levels(i);
-  auto gamma = textured_land ? hn::GatherIndex(d, in.tables->texture.data(), hn::Add(hn::ShiftLeft<8>(code), level))
-                             : by_code(in.tables->gamma.data(), code);
+  if (textured_land) level = cache.texture.levels(i);
+  auto gamma = by_code(in.tables->gamma.data(), code);
+  if (textured_land) gamma = hn::Mul(gamma, hn::GatherIndex(d, in.levels, hn::Add(land_entry(in, i, code), level)));
   if (special) {
     const auto walled = in_set(in.walled, code);
     if (!hn::AllFalse(d, walled)) gamma = hn::Mul(gamma, hn::IfThenElse(walled, hn::LoadU(d, in.wall_gain + i), one));
   }
   GroundReturn result{hn::Mul(hn::Sub(one, water), gamma), zero, some_wet};
   if (!result.wet) return result;
-  auto value = sea_sigma0(cache.sea.sigma0(), sin_grazing());
+  const auto sine = sin_grazing();
+  auto value = sea_sigma0(cache.sea.sigma0(), sine);
+  if (in.glint > 0.0F && !hn::AllFalse(d, hn::Gt(sine, hn::Set(d, kGlintSine))))
+    value = hn::Add(value, glint(in, sine));
   if (textured_sea) {
-    const float* const levels = &in.tables->texture[radar::kWaterMaterial * kTextureLevels];
-    value = hn::Mul(value, hn::GatherIndex(d, levels, level));
+    level = cache.sea_texture.levels(i);
+    value = hn::Mul(value, hn::GatherIndex(d, in.levels, hn::Add(sea_entry(in, i), level)));
   }
   result.sea = hn::IfThenElseZero(wet, hn::Mul(water, value));
   return result;

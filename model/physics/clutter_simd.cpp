@@ -1,6 +1,7 @@
 #include "model/physics/clutter_simd.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -187,20 +188,32 @@ void sigma0_at_azimuth(const SeaTable& table, float cosine, float* sigma0) {
   HWY_DYNAMIC_DISPATCH(sigma0_at_azimuth)(table, cosine, sigma0);
 }
 
-TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east) {
+TextureDegree texture_degree(const GroundInputs& ground, const TextureDrift& drift, float cells_north,
+                             float cells_east) {
   const terrain::CellCorner corner = ground.positions.corner;
   const double north_deg = std::clamp(corner.south_deg + 90.0 + static_cast<double>(cells_north), 0.0, 180.0);
   const double turns = (corner.west_deg + static_cast<double>(cells_east)) / 360.0 + 0.5;
   const auto degree = static_cast<std::size_t>(std::min(north_deg, 179.0));
   const double columns = ground.grid->columns[degree];
-  const double row = north_deg * ground.grid->rows_per_degree;
-  const double column = (turns - std::floor(turns)) * columns;
-  return {static_cast<std::int32_t>(row),
-          static_cast<std::int32_t>(column),
+  const double row = north_deg * ground.grid->rows_per_degree + drift.row_part;
+  const double column = (turns - std::floor(turns)) * columns + drift.column_part;
+  return {static_cast<std::int32_t>(row) + drift.row,
+          static_cast<std::int32_t>(column) + drift.column,
           static_cast<float>(row - std::floor(row)),
           static_cast<float>(column - std::floor(column)),
           static_cast<float>(ground.grid->rows_per_degree),
-          static_cast<float>(columns / 360.0)};
+          static_cast<float>(columns / 360.0),
+          static_cast<std::int32_t>(columns) / static_cast<std::int32_t>(kPartsPerCell),
+          std::max(90.0 - north_deg, north_deg - 89.0) > kPolar_deg};
+}
+
+void polar_bits(const GroundInputs& ground, const TextureDrift& drift, std::size_t first, std::size_t count,
+                std::int32_t* bits) {
+  for (std::size_t i = first; i < first + count; ++i) {
+    const geo::GeoPoint position = terrain::position_of(ground.positions, i);
+    const bool known = std::isfinite(position.latitude_deg) && std::isfinite(position.longitude_deg);
+    bits[i - first] = known ? std::bit_cast<std::int32_t>(drifted_bits(*ground.grid, position, drift)) : 0;
+  }
 }
 
 HWY_EXPORT(speckle);

@@ -22,9 +22,8 @@ namespace yars::model::physics::simd {
 // Land coefficients by material code.
 struct MaterialTables {
   std::array<float, radar::kMaterials> gamma{};
-  // Gamma times texture level, kTextureLevels entries per material; equal entries for a material without texture. The
-  // water material has the sea's texture levels without gamma. Not read if neither land nor sea has texture.
-  std::array<float, radar::kMaterials * kTextureLevels> texture{};
+  // First entry of GroundInputs::levels of the materials with a configured texture, or with none.
+  std::array<std::int32_t, radar::kMaterials> entry{};
 };
 
 // Ground of one sweep. A set of materials has one bit per material code.
@@ -38,7 +37,18 @@ struct GroundInputs {
   float upwind = 0.0F;                     // cosine of the angle between the ray and the direction the wind comes from
   float* sigma0 = nullptr;                 // buffer for sigma0_at_azimuth(), filled at the first sample with water
   const GroundGrid* grid = nullptr;        // cells of the texture
+  const float* levels = nullptr;           // levels of texture, kTextureLevels for each entry; factors of mean 1
+  const std::int32_t* rural = nullptr;     // first entry of `levels` of rural land, by sample
+  const std::int32_t* even = nullptr;      // the same of even land
+  std::int32_t sea_entry = 0;              // the same of the sea, if `sea_steps` is null
+  const float* sea_steps = nullptr;        // step of TextureSteps of the sea across 45 degrees of wind, by sample
+  float sea_turn = 0.0F;                   // added to the steps at the sweep's azimuth
+  TextureDrift drift;                      // of the sea's texture
+  float glint = 0.0F;                      // |R|^2 / s^2 of the specular echo of the sea; 0: none
+  float glint_octaves = 0.0F;              // log2(e) / s^2
   std::uint32_t textured = 0;              // set of land materials with texture
+  std::uint32_t configured = 0;            // set of materials whose entry is that of `tables`
+  std::uint32_t even_kinds = 0;            // set of materials of even land
   std::uint32_t walled = 0;                // set of materials with walls
   bool textured_sea = false;
 };
@@ -47,14 +57,21 @@ struct GroundInputs {
 // `sin_grazing`.
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea);
 
-// Texture grid in a one-degree square. The square's south-west corner is `cells_north` and `cells_east` whole degrees
-// from `ground.positions.corner` (arguments of texture_degree()).
+// Parts of the texture grid in a one-degree square. The square's south-west corner is `cells_north` and `cells_east`
+// whole degrees from `ground.positions.corner` (arguments of texture_degree()).
 struct TextureDegree {
-  std::int32_t row = 0, column = 0;               // grid cell at the square's south-west corner
-  float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that cell outside the square
-  float rows = 0.0F, columns = 0.0F;              // grid cells per degree
+  std::int32_t row = 0, column = 0;               // part at the square's south-west corner
+  float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that part outside the square
+  float rows = 0.0F, columns = 0.0F;              // parts per degree
+  std::int32_t cells_around = 1;                  // cells round the earth
+  bool polar = false;                             // beyond kPolar_deg
 };
-TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east);
+TextureDegree texture_degree(const GroundInputs& ground, const TextureDrift& drift, float cells_north,
+                             float cells_east);
+
+// drifted_bits() of `count` samples from `first` on.
+void polar_bits(const GroundInputs& ground, const TextureDrift& drift, std::size_t first, std::size_t count,
+                std::int32_t* bits);
 
 // True if any of the first `count` entries is above 0. No entry beyond them is read.
 bool any_positive(std::size_t count, const float* values);

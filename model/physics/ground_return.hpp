@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "lib/memory/line_vector.hpp"
 #include "lib/radar/modes.hpp"
@@ -15,6 +16,7 @@
 #include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/physics/sweep_geometry.hpp"
+#include "model/physics/texture.hpp"
 
 namespace yars::model::physics {
 
@@ -25,6 +27,26 @@ struct Facet {
   double sin_grazing = 0.0;   // sine of the grazing angle on level ground; used by the sea
   double water = 0.0;         // [0, 1] fraction of water, as terrain::Surface::water
   std::uint8_t material = 0;  // surface material code; the water material sets the fraction of water to 1
+  std::size_t sample = 0;     // number of the sample of the sweep
+};
+
+// Textures by material code: the tables of TextureSteps, and a table for each material with a configured texture.
+struct LandTextures {
+  explicit LandTextures(const RadarParameters& parameters);
+
+  std::vector<float> levels;
+  std::array<std::int32_t, radar::kMaterials> entry{};  // first level of configured textures; of the sea at water
+  // Sets of material codes: with a configured texture or none; of even land; with texture.
+  std::uint32_t configured = 0, even = 0, textured = 0;
+};
+
+// Motion of the sea's texture: with the waves, downwind.
+struct SeaTexture {
+  double north_mps = 0.0, east_mps = 0.0;
+  double life_s = 0.0;  // 0: the texture is fixed to the ground
+
+  // None without a beam, as in patch maps.
+  TextureDrift drift(const SampleTextures& samples, geo::Duration sim_time) const;
 };
 
 // Reflectivity of the ground at one position, in double precision, for the algorithm `reference`.
@@ -34,10 +56,10 @@ class SurfaceReturn {
  public:
   explicit SurfaceReturn(const RadarParameters& parameters);
   // Replaces sea state and wind.
-  void use_sea(const RadarParameters& parameters) { sea_ = make_sea_return(parameters); }
+  void use_sea(const RadarParameters& parameters);
 
-  // Sets the cell size of the texture. Call it once a sweep; it does nothing if the size is unchanged.
-  void use_resolution(double pulse_length_m, double spacing_m);
+  // Sets the texture of the samples. Call it once a sweep.
+  void use_texture(const TextureSweep& sweep, geo::Duration sim_time = {});
 
   struct Reflectivity {
     double gamma = 0.0;   // of the land, times its fraction: cross section per area normal to the ray
@@ -46,14 +68,14 @@ class SurfaceReturn {
   Reflectivity at(const Facet& facet) const;
 
  private:
-  double texture(std::size_t material, geo::GeoPoint position) const;
+  double texture(std::size_t material, const Facet& facet) const;
 
   LandReturn land_;
   SeaReturn sea_;
-  std::array<TextureLevels, radar::kMaterials> texture_{};  // by material code; water has the sea's levels
-  std::array<bool, radar::kMaterials> textured_{};
-  GroundGrid grid_;
-  double cell_m_ = 0.0;
+  SeaTexture sea_texture_;
+  TextureDrift drift_;
+  LandTextures textures_;
+  SampleTextures samples_;
 };
 
 // Ground reflectivity of a sweep, for the algorithm `standard`. The constructor makes the tables of materials, sea and
@@ -67,8 +89,8 @@ class Ground {
   // Sets the number of samples of the following sweeps.
   void resize(std::size_t samples);
 
-  // Sets the cell size of the texture. Call it once a sweep.
-  void use_resolution(double pulse_length_m, double spacing_m);
+  // Sets the texture of the samples. Call it once a sweep.
+  void use_texture(const TextureSweep& sweep, geo::Duration sim_time = {});
 
   // Buffer of material codes. The caller fills it for prepare() and reflect(). Its size is samples + kPairSlack.
   memory::CacheAlignedVector<std::int32_t>& materials() { return codes_; }
@@ -92,12 +114,13 @@ class Ground {
 
   LandReturn land_;
   SeaTable sea_;
+  SeaTexture sea_texture_;
   double wind_north_ = 1.0, wind_east_ = 0.0;  // unit vector in the direction that the wind blows from
   simd::MaterialTables tables_;
   simd::GroundInputs inputs_;
   memory::CacheAlignedVector<float> sigma0_;  // sea table at the sweep's azimuth
-  GroundGrid grid_;
-  double cell_m_ = 0.0;
+  LandTextures textures_;
+  SampleTextures samples_;
   memory::CacheAlignedVector<std::int32_t> codes_;
   memory::CacheAlignedVector<float> wall_gain_, land_gamma_, sea_sigma0_;
   StreetFinder streets_;

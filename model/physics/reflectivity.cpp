@@ -205,6 +205,32 @@ double sea_state_of_wind(geo::Speed wind) {
   return kMaxState;
 }
 
+geo::Speed wind_of_sea_state(double state) {
+  constexpr std::array<double, 7> kWind_mps{0.0, 2.5, 4.5, 6.0, 8.5, 11.0, 14.0};
+  const double held = std::clamp(state, 0.0, kMaxState);
+  const auto low = std::min(static_cast<std::size_t>(held), kWind_mps.size() - 2);
+  return geo::Speed::metres_per_second(std::lerp(kWind_mps[low], kWind_mps[low + 1], held - static_cast<double>(low)));
+}
+
+double sea_slope_variance(geo::Speed wind) {
+  return 0.003 + 0.00512 * wind.metres_per_second();
+}
+
+geo::Speed wave_speed(geo::Speed wind) {
+  // The spectrum exp(-b (g / U w)^4) / w^5 has its peak at w = (4 b / 5)^(1/4) g / U. T = 2 pi / w.
+  constexpr double kBeta = 0.74;
+  return geo::Speed::metres_per_second(wind.metres_per_second() / std::pow(0.8 * kBeta, 0.25));
+}
+
+double specular_sigma0(double slope_variance, double sin_grazing) {
+  const auto begin = static_cast<double>(kGlintSine);
+  if (!(slope_variance > 0.0) || sin_grazing <= begin) return 0.0;
+  const double square = std::min(sin_grazing * sin_grazing, 1.0);
+  const double share = std::min(1.0, (sin_grazing - begin) * static_cast<double>(kGlintRise));
+  return share * kSeaReflection / slope_variance / (square * square) *
+         std::exp(-(1.0 - square) / square / slope_variance);
+}
+
 double upwind_db(double factor, double wavelength_m, double grazing_rad) {
   const double steepness = std::max(0.0, 1.0 - 2.8 * grazing_rad);
   return 10.0 * std::numbers::log10e * factor * steepness * std::pow(wavelength_m + 0.015, -0.4);
@@ -224,6 +250,10 @@ SeaReturn make_sea_return(const RadarParameters& parameters) {
   sea.state = std::clamp(state, 0.0, kMaxState);
   sea.wind_factor = settings.wind_factor;
   sea.wind_from = geo::Bearing::degrees(settings.wind_from_deg);
+  const geo::Speed wind = std::isnan(settings.state) ? geo::Speed::metres_per_second(settings.wind_speed_mps)
+                                                     : wind_of_sea_state(settings.state);
+  sea.wind_mps = wind.metres_per_second();
+  if (settings.specular) sea.slope_variance = sea_slope_variance(wind);
   return sea;
 }
 
@@ -234,11 +264,14 @@ double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth
   const double isotropic_db = nrl_sigma0_db(sea.coefficients, grazing_deg, sea.frequency_ghz, sea.state) +
                               sea.correction.db(grazing_deg, sea.state);
   const double upwind = upwind_db(sea.wind_factor, sea.wavelength_m, grazing_rad);
-  return ratio(isotropic_db + upwind * std::cos((azimuth - sea.wind_from).radians()));
+  return ratio(isotropic_db + upwind * std::cos((azimuth - sea.wind_from).radians())) +
+         specular_sigma0(sea.slope_variance, sin_grazing);
 }
 
-SeaTable make_sea_table(const SeaReturn& sea) {
+SeaTable make_sea_table(const SeaReturn& all) {
   SeaTable table;
+  SeaReturn sea = all;
+  sea.slope_variance = 0.0;  // the vector code adds the specular echo
   const geo::Bearing across = sea.wind_from + geo::Angle::degrees(90.0);
   for (std::size_t i = 0; i < table.across.size(); ++i) {
     const auto bits = SeaTable::kFirst + (static_cast<std::uint32_t>(i) << SeaTable::kShift);

@@ -165,11 +165,31 @@ struct SeaReturn {
   double state = 0.0;        // sea state [0, 6]
   double wind_factor = 0.0;  // `factor` of upwind_db()
   geo::Bearing wind_from;
+  double wind_mps = 0.0;        // of the configuration, or that of the configured state
+  double slope_variance = 0.0;  // of the specular echo; 0: no such echo
 };
 SeaReturn make_sea_return(const RadarParameters& parameters);
 
-// sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees grazing, sigma0 is that at 60.
-// Below 0.1 degrees the formula is extrapolated. 0 if sin_grazing <= 0.
+// Wind that makes a sea state from 0 to 6, by interpolation. Source: table of M. Farshchian, NRL 2010.
+geo::Speed wind_of_sea_state(double state);
+
+// Variance of the slopes of a clean sea: 0.003 + 0.00512 W, W the wind [m/s]. Source: Cox and Munk 1954.
+double sea_slope_variance(geo::Speed wind);
+
+// Speed of the crests of the longest waves of a fully developed sea in deep water: c = g T / 2 pi, at the peak of the
+// Pierson-Moskowitz spectrum.
+geo::Speed wave_speed(geo::Speed wind);
+
+// Echo of facets of the sea that are normal to the ray: |R|^2 / s^2 sec^4 t exp(-tan^2 t / s^2), t from the vertical,
+// s^2 the variance of slopes. It begins at 60 degrees grazing, where the models of sigma0 end, and is whole from 70.
+// Source: Barrick 1968, in the form of docs/spec/physics.md#sea.
+double specular_sigma0(double slope_variance, double sin_grazing);
+inline constexpr float kGlintSine = 0.866025404F;           // sin 60
+inline constexpr float kGlintRise = 1.0F / 0.07366721667F;  // 1 / (sin 70 - sin 60)
+inline constexpr double kSeaReflection = 0.61;              // |R|^2 of sea water at X band (chosen)
+
+// sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees grazing, it is that at 60 and the
+// specular echo. Below 0.1 degrees the formula is extrapolated. 0 if sin_grazing <= 0.
 double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth);
 
 // Table of the sea's sigma0 over the sine of the grazing angle. Each octave of the sine has sixteen pieces. Within a

@@ -7,6 +7,7 @@
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/world.hpp"
 #include "model/physics/receiver.hpp"
+#include "model/physics/texture.hpp"
 #include "model/rbm/reference.hpp"
 #include "model/rbm/report_1996.hpp"
 #include "model/rbm/standard.hpp"
@@ -105,6 +106,7 @@ bool Beam::is_current(const Ray& ray, const physics::SweepGeometry& geometry, bo
          then.bars_above.radians() == geometry.bars_above.radians() &&
          then.bars_below.radians() == geometry.bars_below.radians() &&
          std::abs((geometry.sim_time - then.sim_time).seconds()) <= kRayLifetime.seconds() &&
+         physics::sea_texture_time(geometry.sim_time) == physics::sea_texture_time(then.sim_time) &&
          north_m * north_m + east_m * east_m + up_m * up_m <= max_move_m * max_move_m;
 }
 

@@ -53,7 +53,8 @@ std::size_t Reference::measure(const physics::SweepGeometry& geometry, const phy
   physics::sample_distances(geometry.range, distance_m_);
   const std::size_t pending = read_terrain(geometry, terrain);
   const double spacing_m = geometry.range.metres() / static_cast<double>(samples_.size());
-  surface_.use_resolution(receiver.pulse_length_m, spacing_m);
+  surface_.use_texture({receiver.pulse_length_m, spacing_m, geometry.altitude.metres(), receiver.azimuth_cell_rad},
+                       geometry.sim_time);
   walk_ground(geometry, receiver, physics::GroundWalk(geometry, earth, terrain, fidelity_.interpolation));
   if (fidelity_.slant_range) average_slant_ranges(geometry, earth);
   if (scene_covers_.enter(geometry, environment.scenes)) add_covers(geometry, *environment.scenes);
@@ -169,8 +170,8 @@ void Reference::add_ground(const physics::SweepGeometry& geometry, const physics
       earth.sight(geometry.altitude.metres(), distance_m, near_m + middle * (to.height_m - near_m));
   const double range_m = sight.slant_range_m;
   const Sample& sample = samples_[cell.number];
-  const physics::SurfaceReturn::Reflectivity ground =
-      surface_.at({sample.position, sample.azimuth, sight.sin_grazing, point.surface.water, point.surface.material});
+  const physics::SurfaceReturn::Reflectivity ground = surface_.at(
+      {sample.position, sample.azimuth, sight.sin_grazing, point.surface.water, point.surface.material, cell.number});
   const double normal_m2 = range_m * range_m * receiver.azimuth_cell_rad * seen_rad;
   const double sea_m2 =
       ground.sigma0 * range_m * receiver.azimuth_cell_rad * seen_part * (to.distance_m - from.distance_m);

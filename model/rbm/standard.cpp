@@ -76,7 +76,8 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const simd::SweepConstants constants = sweep_constants(geometry, earth, receiver);
   const double spacing_m = geometry.range.metres() / static_cast<double>(count_);
   const double pulse_samples = fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 0.0;
-  ground_.use_resolution(receiver.pulse_length_m, spacing_m);
+  ground_.use_texture({receiver.pulse_length_m, spacing_m, geometry.altitude.metres(), receiver.azimuth_cell_rad},
+                      geometry.sim_time);
   const terrain::PositionRun positions = positions_.run();
   simd::SweepInputs inputs{distance_.data(), elevation_.data(),
                            // Where a cell is reduced to fewer posts, the highest original posts cast the shadow.

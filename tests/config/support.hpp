@@ -81,7 +81,7 @@ inline auto fields(const radar::RoutePoint& point) {
 
 inline auto fields(const radar::Material& material) {
   const auto& [code, name, gamma, cardinal, texture] = material;
-  return std::tuple(code, name, gamma, cardinal, texture);
+  return std::tuple(code, name, gamma, cardinal, comparable(texture));
 }
 
 // Position and values of an entry of a list of the world.
@@ -149,19 +149,21 @@ auto fields_of_all(const std::vector<Record>& records) {
 
 inline auto fields(const radar::WorldConfiguration& world) {
   const auto& [slope, reference, street, land_texture, materials] = world.land;
-  const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture, sea_model] = world.sea;
+  const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture, sea_model, life, specular] =
+      world.sea;
   const auto& [a, b, dielectric, k, exponent, cells] = world.rain;
   const auto& [gases, temperature, pressure, water, refractivity, per_km] = world.atmosphere;
   const auto& [radar_power, sidelobes, jammers] = world.jamming;
   const auto& [beacon_code, beacons] = world.beacons;
   const auto lists =
       std::apply([](const auto&... list) { return std::tuple(fields_of_all(list)...); }, radar::lists_of(world));
-  return std::tuple(
-      std::tuple(slope, reference, street, land_texture, fields_of_all(materials)),
-      std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor, sea_texture, sea_model),
-      std::tuple(a, b, dielectric, comparable(k), comparable(exponent)),
-      std::tuple(gases, temperature, pressure, water, refractivity, per_km), std::tuple(radar_power, sidelobes), lists,
-      fields_of_all(world.scenes), std::tuple(beacon_code, fields_of_all(beacons)));
+  return std::tuple(std::tuple(slope, reference, street, comparable(land_texture), fields_of_all(materials)),
+                    std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor,
+                               comparable(sea_texture), sea_model, life, specular),
+                    std::tuple(a, b, dielectric, comparable(k), comparable(exponent)),
+                    std::tuple(gases, temperature, pressure, water, refractivity, per_km),
+                    std::tuple(radar_power, sidelobes), lists, fields_of_all(world.scenes),
+                    std::tuple(beacon_code, fields_of_all(beacons)));
 }
 
 inline auto fields(const radar::WindowLimits& limits) {

@@ -9,6 +9,7 @@
 #include "model/kernel/sweep_chain.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/ground_return.hpp"
+#include "model/physics/texture.hpp"
 #include "model/rbm/beam.hpp"
 #include "tests/model/physics/decibels.hpp"
 #include "tests/model/terrain/shapes.hpp"
@@ -209,7 +210,7 @@ double second_moment(double shape) {
   radar::RadarConfiguration configuration;
   configuration.world.land.texture = shape;
   physics::SurfaceReturn surface(configuration);
-  surface.use_resolution(30.0, 30.0);
+  surface.use_texture({.pulse_length_m = 30.0, .spacing_m = 30.0});
   constexpr std::size_t kCells = 1000;
   std::vector<float> variates(kCells + 16);
   Moments intensity;
@@ -230,6 +231,68 @@ TEST(Truth, TexturedGroundIsKDistributed) {
         {"Texture", std::string("⟨I²⟩/⟨I⟩² of textured land, one look, shape ") + name, outside, 0.02 * outside, "",
          "K distribution: 2 (1 + 1/ν), Ward, Tough and Watts 2013", "a million samples; 256 levels of texture"},
         second_moment(shape));
+}
+
+const std::string kInterim =
+    "Billingsley's interim clutter model, cells of 1,000 m², as quoted by the program of J. Champagne 2019";
+
+TEST(Truth, LandHasTheWeibullSlopesOfMeasurements) {
+  constexpr double kCell_m2 = 1000.0;
+  for (const auto& [angle, grazing_deg, outside] : {std::tuple("0 to 0.25°", 0.125, 3.8),
+                                                    {"0.25 to 0.75°", 0.5, 3.5},
+                                                    {"0.75 to 1.5°", 1.125, 3.0},
+                                                    {"1.5 to 4°", 2.75, 2.7},
+                                                    {"4°", 4.0, 2.6}})
+    expect_row({"Texture", std::string("Weibull slope of rural land, depression ") + angle, outside, 0.02, "", kInterim,
+                "the middle of the class"},
+               physics::weibull_slope(physics::LandKind::rural, grazing_deg, kCell_m2));
+  expect_row({"Texture", "Weibull slope of forest, desert, marsh and grassland, depression above 1°", 2.0, 0.15, "",
+              kInterim, "one share of the rural slope for all angles"},
+             physics::weibull_slope(physics::LandKind::even, 1.125, kCell_m2));
+}
+
+// Variance / mean^2 of the texture in sweeps over level land: of their power over that without texture.
+double land_variance(double range_nm, std::size_t sample) {
+  constexpr double kAltitude_m = 6096.0;
+  radar::RadarConfiguration configuration;
+  model::rbm::Beam textured(configuration);
+  configuration.world.land.texture = 0.0;
+  model::rbm::Beam even(configuration);
+  const model::terrain::AnalyticTerrain plain(model::terrain::flat(1.0));
+  const std::size_t samples = static_cast<std::size_t>(configuration.fidelity.samples);
+  std::vector<float> power(samples), mean(samples);
+  Moments relative;
+  for (int sweep = 0; sweep < 1500; ++sweep) {
+    const physics::SweepGeometry geometry{{37.0, 0.23 * sweep - 170.0},
+                                          geo::AltitudeMsl::metres(kAltitude_m),
+                                          geo::Bearing::degrees(0.7 * sweep),
+                                          geo::Angle::degrees(-5.0),
+                                          geo::Length::nautical_miles(range_nm)};
+    for (model::rbm::Beam* beam : {&textured, &even}) {
+      beam->begin_pass();
+      beam->measure(geometry, plain, beam == &textured ? power : mean);
+    }
+    for (std::size_t i = sample - 20; i <= sample + 20; i += 10)
+      relative.add(static_cast<double>(power[i]) / static_cast<double>(mean[i]));
+  }
+  return relative.squares / relative.count / (relative.mean() * relative.mean()) - 1.0;
+}
+
+TEST(Truth, TextureOfLandInSweepsHasTheVarianceOfItsWeibullSlope) {
+  struct Point {
+    std::string of;
+    double range_nm;
+    std::size_t sample;
+    double outside;
+  };
+  for (const Point& point : {Point{"20 NM, in 16 NM", 20.0, 384, 0.535},
+                             {"20 NM, in 8 NM", 20.0, 192, 0.400},
+                             {"80 NM, in 64 NM", 80.0, 384, 0.655}})
+    expect_row({"Texture", "variance / mean² of the texture of sweeps over level land, 20,000 ft, range " + point.of,
+                point.outside, 0.25 * point.outside, "",
+                "½ Γ(1 + 2a) / Γ(1 + a)² − 1 by hand, a the slope of docs/spec/physics.md#texture",
+                "one formula for the cells in a beam of any width"},
+               land_variance(point.range_nm, point.sample));
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-// Row of the texture of the ground in patch maps: ground has no period.
+// Rows of the texture of the ground in patch maps and sweeps: ground has no period and no lattice.
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <vector>
 
 #include "model/hrm/ground_detail.hpp"
+#include "model/physics/clutter.hpp"
 #include "tests/truth/ledger.hpp"
 
 namespace yars::truth {
@@ -58,6 +59,12 @@ std::vector<double> pair_sums(const std::vector<float>& map, double mean) {
   return sums;
 }
 
+double mean_of(const std::vector<float>& map) {
+  double mean = 0.0;
+  for (const float value : map) mean += static_cast<double>(value) / static_cast<double>(map.size());
+  return mean;
+}
+
 // Factors of the texture on level ground in a map of 20 NM.
 std::vector<float> texture() {
   const model::hrm::GroundTexture made(0.5, kPixel_m);
@@ -80,8 +87,7 @@ std::vector<float> texture() {
 
 TEST(Truth, GroundInPatchMapsHasNoPeriod) {
   const std::vector<float> map = texture();
-  double mean = 0.0;
-  for (const float factor : map) mean += static_cast<double>(factor) / static_cast<double>(map.size());
+  const double mean = mean_of(map);
   const std::vector<double> sums = pair_sums(map, mean);
   double greatest = 0.0;
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -97,6 +103,72 @@ TEST(Truth, GroundInPatchMapsHasNoPeriod) {
   expect_row(
       {"Texture", "mean of the texture's factor", 1.0, 0.02, "", "a factor that keeps the mean of gamma", "chance"},
       mean);
+}
+
+constexpr double kCell_m = 64.0;
+constexpr double kPart_m = kCell_m / 4.0;  // between the positions
+
+// Levels of the texture of sweeps on a map with its middle at a latitude. Rows run east, and tangent to the parallel.
+std::vector<float> sweep_texture(double latitude_deg) {
+  const model::physics::GroundGrid grid = model::physics::make_ground_grid(kCell_m);
+  const double from_pole_m = (90.0 - latitude_deg) * model::physics::kGridMetresPerDegree;
+  const double cosine = std::cos(latitude_deg * std::numbers::pi / 180.0);
+  std::vector<float> map;
+  for (std::size_t row = 0; row < kSide; ++row)
+    for (std::size_t column = 0; column < kSide; ++column) {
+      const double north_m = (static_cast<double>(row) - 0.5 * kSide) * kPart_m;
+      const double east_m = (static_cast<double>(column) - 0.5 * kSide) * kPart_m;
+      geo::GeoPoint position{latitude_deg + north_m / model::physics::kGridMetresPerDegree,
+                             east_m / (model::physics::kGridMetresPerDegree * cosine)};
+      if (latitude_deg > 89.0)
+        position = {90.0 - std::hypot(from_pole_m - north_m, east_m) / model::physics::kGridMetresPerDegree,
+                    std::atan2(east_m, from_pole_m - north_m) * 180.0 / std::numbers::pi};
+      map.push_back(static_cast<float>(model::physics::ground_bits(grid, position) >> 24U));
+    }
+  return map;
+}
+
+// Magnitude of the steps to the next position east or north: large at the edges of cells.
+std::vector<float> steps(const std::vector<float>& map, std::size_t stride) {
+  std::vector<float> found;
+  for (std::size_t i = 0; i < map.size(); ++i)
+    found.push_back(
+        i + stride < map.size() && (stride > 1 || i % kSide + 1 < kSide) ? std::abs(map[i + stride] - map[i]) : 0.0F);
+  return found;
+}
+
+// Greatest autocorrelation at lags beyond two cells.
+double greatest_beyond_two_cells(const std::vector<float>& map) {
+  const std::vector<double> sums = pair_sums(map, mean_of(map));
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double rows = static_cast<double>(std::min(i / kPlane, kPlane - i / kPlane));
+    const double columns = static_cast<double>(std::min(i % kPlane, kPlane - i % kPlane));
+    if (std::hypot(rows, columns) * kPart_m > 2.0 * kCell_m) greatest = std::max(greatest, std::abs(sums[i]) / sums[0]);
+  }
+  return greatest;
+}
+
+TEST(Truth, GroundInSweepsHasNoLattice) {
+  const std::string nature = "level ground of one kind has neither rows nor columns";
+  for (const auto& [at, latitude_deg] : {std::pair("37° N", 37.0), {"89.9° N", 89.9}}) {
+    const std::vector<float> map = sweep_texture(latitude_deg);
+    const std::string where = std::string(" beyond 2 cells at ") + at;
+    expect_row({"Texture", "greatest autocorrelation of the texture of sweeps" + where, 0.0, 0.1, "", nature,
+                "chance: the map has 16,000 cells"},
+               greatest_beyond_two_cells(map));
+    expect_row({"Texture", "greatest autocorrelation of the edges of cells to the east" + where, 0.0, 0.1, "", nature,
+                "chance: the map has 16,000 cells"},
+               greatest_beyond_two_cells(steps(map, 1)));
+    expect_row({"Texture", "greatest autocorrelation of the edges of cells to the north" + where, 0.0, 0.1, "", nature,
+                "chance: the map has 16,000 cells"},
+               greatest_beyond_two_cells(steps(map, kSide)));
+    const std::vector<double> sums = pair_sums(map, mean_of(map));
+    expect_row(
+        {"Texture", std::string("autocorrelation half a cell east over that half a cell north at ") + at, 1.0, 0.15, "",
+         "level ground of one kind is alike in all directions", "the cells of a degree of latitude have one width"},
+        sums[2] / sums[2 * kPlane]);
+  }
 }
 
 }  // namespace

@@ -199,8 +199,10 @@ class RandomConfiguration {
                 five_numbers(),
                 five_numbers(),
                 number(0, 2),
-                number(0, 100),
-                radar::SeaModel(random_() % 2)};
+                coin() ? kUnknown : number(0, 100),
+                radar::SeaModel(random_() % 2),
+                number(0, 3600),
+                coin()};
     made.rain = {number(0, 2000),
                  number(0.5, 3),
                  number(0, 1),

@@ -22,14 +22,14 @@ TEST(Materials, AddToTheBuiltInMaterials) {
   const auto materials =
       loaded("( Materials `( ( Material :code 20 :name \"vineyard\" :gamma -11 ) ) )").radar.world.land.materials;
   ASSERT_EQ(materials.size(), defaults.size() + 1);
-  EXPECT_EQ(fields(materials.back()), fields(radar::Material{20, "vineyard", -11.0, 0.0, 0.0}));
+  EXPECT_EQ(fields(materials.back()), fields(radar::Material{20, "vineyard", -11.0, 0.0}));
 }
 
 TEST(Materials, ChangeOnlyTheSlotsThatAreGiven) {
   const auto materials = loaded("( Materials `( ( Material :code 13 :gamma -18 ) ( Material :cardinal 9 :code 13 ) ) )")
                              .radar.world.land.materials;
   ASSERT_EQ(materials.size(), radar::LandConfiguration{}.materials.size());
-  EXPECT_EQ(fields(materials.back()), fields(radar::Material{13, "snow and ice", -18.0, 9.0, 0.0}));
+  EXPECT_EQ(fields(materials.back()), fields(radar::Material{13, "snow and ice", -18.0, 9.0}));
 }
 
 TEST(Materials, AreKeptInAscendingOrderOfCodes) {

@@ -49,18 +49,22 @@ TEST(Land, HasWallsParallelAndPerpendicularToItsStreets) {
 }
 
 TEST(GroundGrid, HasCellsOfItsSizeAtEveryLatitude) {
-  const GroundGrid grid = make_ground_grid(500.0);
-  for (const double latitude_deg : {0.2, 37.6, -45.3, 60.4}) {
-    // Along a parallel, the bits change once per cell.
-    const double metres_per_degree = 111'195.0 * std::cos(latitude_deg * geo::kRadiansPerDegree);
-    int changes = 0;
-    std::uint32_t last = ground_bits(grid, {latitude_deg, 10.0});
-    for (double east_m = 0.0; east_m < 200'000.0; east_m += 50.0) {
-      const std::uint32_t here = ground_bits(grid, {latitude_deg, 10.0 + east_m / metres_per_degree});
-      changes += here != last ? 1 : 0;
-      last = here;
+  constexpr double kEdge_m = 512.0;
+  const GroundGrid grid = make_ground_grid(kEdge_m);
+  for (const double latitude_deg : {0.2, 37.6, -45.3, 60.4, 83.5, -88.7, 89.9}) {
+    // Along a parallel, positions half a cell apart are mostly in one cell, and positions two cells apart never are.
+    const double metres_per_degree = kGridMetresPerDegree * std::cos(latitude_deg * geo::kRadiansPerDegree);
+    int equal = 0, beyond = 0;
+    constexpr int kPositions = 2000;
+    for (int i = 0; i < kPositions; ++i) {
+      const double row_deg = latitude_deg + 1e-5 * i;
+      const auto bits = [&](double east_m) { return ground_bits(grid, {row_deg, 10.0 + east_m / metres_per_degree}); };
+      const double from_m = 29.0 * i;
+      equal += bits(from_m) == bits(from_m + 0.5 * kEdge_m) ? 1 : 0;
+      beyond += bits(from_m) == bits(from_m + 2.1 * kEdge_m) ? 1 : 0;
     }
-    EXPECT_NEAR(changes, 400, 12) << latitude_deg;
+    EXPECT_NEAR(equal, 0.34 * kPositions, 0.06 * kPositions) << latitude_deg;
+    EXPECT_LE(beyond, 2) << latitude_deg;
   }
 }
 

@@ -93,11 +93,24 @@ TEST(Sea, HasAConfiguredStateForAnyWind) {
   EXPECT_EQ(make_sea_return(configuration).state, 4.5);
 }
 
-TEST(Sea, ReturnsNothingAtNegativeGrazingAnglesAndAConstantAbove60Degrees) {
-  const SeaReturn sea = make_sea_return(radar::RadarConfiguration());
+TEST(Sea, ReturnsNothingAtNegativeGrazingAnglesAndAConstantAbove60DegreesWithoutFacets) {
+  radar::RadarConfiguration configuration;
+  configuration.world.sea.specular = false;
+  const SeaReturn sea = make_sea_return(configuration);
   EXPECT_EQ(sea_sigma0(sea, 0.0, {}), 0.0);
   EXPECT_EQ(sea_sigma0(sea, -0.1, {}), 0.0);
   EXPECT_NEAR(sea_sigma0(sea, 1.0, {}) / sea_sigma0(sea, std::sin(60.0 * geo::kRadiansPerDegree), {}), 1.0, 1e-9);
+}
+
+TEST(Sea, ReturnsMoreTowardsNadirByItsFacets) {
+  const SeaReturn sea = make_sea_return(radar::RadarConfiguration());
+  double last = 0.0;
+  for (double grazing_deg = 60.0; grazing_deg <= 90.0; grazing_deg += 0.5) {
+    const double sigma0 = sea_sigma0(sea, std::sin(grazing_deg * geo::kRadiansPerDegree), {});
+    EXPECT_GE(sigma0, last) << grazing_deg;
+    last = sigma0;
+  }
+  EXPECT_GT(decibels(last), 10.0);
 }
 
 TEST(SeaTable, IsWithin0Point05DecibelsOfTheModelsBelow15DegreesOfGrazing) {
@@ -105,6 +118,7 @@ TEST(SeaTable, IsWithin0Point05DecibelsOfTheModelsBelow15DegreesOfGrazing) {
     radar::RadarConfiguration configuration;
     configuration.world.sea.polarization = radar::Polarization(kind % 2);
     configuration.world.sea.model = radar::SeaModel(kind / 2);
+    configuration.world.sea.specular = false;
     const SeaReturn sea = make_sea_return(configuration);
     const SeaTable table = make_sea_table(sea);
     constexpr std::size_t kPaddedCount = SeaTable::kPieces + 1 + terrain::kRunSlack;

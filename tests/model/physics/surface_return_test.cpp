@@ -111,7 +111,7 @@ TEST(SurfaceReturn, HasTheSameTextureFromEveryDirection) {
   configuration.fidelity.noise = true;
   configuration.world.land.texture = 1.0;
   physics::SurfaceReturn surface(configuration);
-  surface.use_resolution(300.0, 40.0);
+  surface.use_texture({.pulse_length_m = 300.0, .spacing_m = 40.0});
   physics::Facet facet{{37.2, -122.3}, geo::Bearing(), 0.1, 0.0, 0};
   const double once = surface.at(facet).gamma;
   facet.azimuth = geo::Bearing::degrees(200.0);
