@@ -98,14 +98,21 @@ double cells_in_sample(const RadarParameters& parameters, double width) {
   return cells_in_sample(parameters.fidelity.sub_beams, parameters.fidelity.pulse_smear, width);
 }
 
+namespace {
+// Effective earth radius factor for classes of grazing angles, which need no exact refraction.
+double radius_factor(double configured) {
+  constexpr double kMean = 4.0 / 3.0, kLeast = 0.1;
+  return std::isnan(configured) ? kMean : std::max(kLeast, configured);
+}
+}  // namespace
+
 SampleTextures::SampleTextures(const RadarParameters& parameters)
-    : slant_range_(parameters.geometry.slant_range),
-      pulse_smear_(parameters.fidelity.pulse_smear),
+    : pulse_smear_(parameters.fidelity.pulse_smear),
       polarization_(parameters.world.sea.polarization),
       sub_beams_(parameters.fidelity.sub_beams),
       effective_radius_m_(parameters.geometry.earth == radar::EarthModel::flat
                               ? std::numeric_limits<double>::infinity()
-                              : geo::kMeanEarthRadius_m * std::max(0.1, parameters.geometry.earth_radius_factor)),
+                              : geo::kMeanEarthRadius_m * radius_factor(parameters.geometry.earth_radius_factor)),
       samples_(parameters.samples) {
   resize(samples_);
 }
@@ -134,7 +141,7 @@ void SampleTextures::use(const TextureSweep& sweep) {
 SampleTextures::Place SampleTextures::place(std::size_t sample) const {
   const double along_m = (static_cast<double>(sample) + 0.5) * sweep_.spacing_m;
   const double height_m = sweep_.altitude_m;
-  const double range_m = slant_range_ ? std::max(along_m, height_m) : std::hypot(along_m, height_m);
+  const double range_m = std::hypot(along_m, height_m);
   const double sine =
       height_m / range_m - (range_m * range_m - height_m * height_m) / (2.0 * range_m * effective_radius_m_);
   return {std::asin(std::clamp(sine, 0.0, 1.0)) / geo::kRadiansPerDegree, range_m};

@@ -102,7 +102,7 @@ class SampleTextures {
   Place place(std::size_t sample) const;
   void update();
 
-  const bool slant_range_, pulse_smear_;
+  const bool pulse_smear_;
   const radar::Polarization polarization_;
   const int sub_beams_;
   const double effective_radius_m_;
