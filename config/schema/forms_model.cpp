@@ -310,7 +310,9 @@ std::vector<SlotSchema> map_fidelity_slots() {
       flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
            "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets"),
       flag("diffraction", YARS_FIELD(radar.fidelity.diffraction),
-           "edges bend rays into shadows; with the algorithm reference only")};
+           "edges bend rays into shadows; with the algorithm reference only"),
+      flag("seaLobes", YARS_FIELD(radar.fidelity.sea_lobes),
+           "movers over the sea: the direct ray and the one that the sea reflects interfere")};
 }
 
 std::vector<SlotSchema> receiver_slots() {

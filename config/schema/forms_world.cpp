@@ -297,7 +297,11 @@ FormSchema atmosphere() {
                                 "at mean sea level, in N-units: a millionth of the index of refraction above 1"),
                     number_slot("refractivityPerKm", "1/km", 0.05, 0.25,
                                 {YARS_FIELD(radar.world.atmosphere.refractivity_per_km)},
-                                "c of the fall exp(-c height) of the refractivity")}};
+                                "c of the fall exp(-c height) of the refractivity"),
+                    {.name = "profile",
+                     .binding = PathSlot{YARS_FIELD(radar.world.atmosphere.profile)},
+                     .purpose = "CSV file of a radiosonde; refractivity and refractivityPerKm are those of the "
+                                "exponential profile that fits it best"}}};
 }
 
 }  // namespace

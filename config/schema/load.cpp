@@ -12,6 +12,7 @@
 #include "config/schema/form_reader.hpp"
 #include "config/schema/message_translation.hpp"
 #include "config/schema/schema.hpp"
+#include "config/schema/sounding.hpp"
 #include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
@@ -231,6 +232,14 @@ error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
   }
   loaded.radar = std::move(builder->whole);
   set_cross_sections(loaded.radar);
+  radar::AtmosphereConfiguration& air = loaded.radar.world.atmosphere;
+  if (!air.profile.empty()) {
+    const auto fit = profile_of_sounding(air.profile);
+    if (!fit) return tl::unexpected(fit.error());
+    air.refractivity = fit->refractivity;
+    air.refractivity_per_km = fit->per_km;
+    air.profile.clear();
+  }
   if (builder->has_network) loaded.network = std::move(builder->network);
   return loaded;
 }

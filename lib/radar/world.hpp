@@ -162,6 +162,7 @@ struct AtmosphereConfiguration {
   double water_g_m3 = 7.5;              // [g/m^3] density of water vapour
   double refractivity = 313.0;          // [N-units] (index of refraction - 1) times a million
   double refractivity_per_km = 0.1439;  // [1/km] it falls as exp(-refractivity_per_km height)
+  std::string profile{};  // file of a radiosonde; the configuration reads both values above from it, and empties this
 };
 
 struct TerrainConfiguration {

@@ -40,7 +40,8 @@ Movers::Movers(const RadarParameters& parameters)
     : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference),
       beam_(parameters.beam),
       gas_(parameters),
-      target_echoes_(parameters) {
+      target_echoes_(parameters),
+      sea_mirror_(parameters) {
   use_movers(parameters);
 }
 
@@ -155,7 +156,11 @@ void Movers::add_echo(std::size_t number, const MovingPoint& point, const Sector
   const double loss = gas_.two_way_transmission(earth, geometry.altitude.metres(), distance_m, height_m);
   const double cross_section_m2 = target_echoes_.cross_section_m2(
       point.target, scan, [&, apex = geometry.apex] { return aspect_of(position, apex, sight); });
-  const double power = returned_power(cross_section_m2, loss * gain, sight.slant_range_m);
+  // Only a target over water has lobes. `water` of its own position stands for that of the reflection.
+  const bool lobes = sea_mirror_.works() && terrain.surface_at(position, radar::Interpolation::nearest).water > 0.5;
+  const double factor =
+      lobes ? sea_mirror_.lobe_factor(earth, geometry.altitude.metres(), distance_m, point.height_m) : 1.0;
+  const double power = returned_power(cross_section_m2, factor * loss * gain, sight.slant_range_m);
   echoes_.push_back({number, position, point.height_m, distance_m, sight.slant_range_m, offset_rad,
                      received(receiver, power, sight.slant_range_m)});
 }

@@ -15,6 +15,7 @@
 #include "lib/radar/modes.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/receiver.hpp"
+#include "model/physics/sea_mirror.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/physics/target_echo.hpp"
 #include "model/scene/placement/scene_view.hpp"
@@ -85,6 +86,7 @@ class Movers {
   explicit Movers(const RadarParameters& parameters);
   // Replaces the configured movers.
   void use_movers(const RadarParameters& parameters);
+  void use_sea(const RadarParameters& parameters) { sea_mirror_ = SeaMirror(parameters); }
 
   // Echoes of the movers within the range and within the azimuth interval point_interval(). The span is valid until the
   // next call. Does not allocate. Distances are within 3 m of the geodesic, azimuths within 1e-5 rad; with the
@@ -114,6 +116,7 @@ class Movers {
   radar::BeamPattern beam_;
   GasPath gas_;
   TargetEchoes target_echoes_;
+  SeaMirror sea_mirror_;
   std::vector<MovingPoint> points_;
   std::vector<Fix> fixes_;  // of points_, renewed after kMaxRun_m; they only limit the search
   std::vector<Echo> echoes_;

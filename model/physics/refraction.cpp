@@ -157,15 +157,9 @@ Refraction::Refraction(const geo::RefractivityProfile& air) : air_(air) {
 }
 
 std::shared_ptr<const Refraction> Refraction::of(const geo::RefractivityProfile& air) {
-  static std::mutex mutex;
-  static std::vector<std::weak_ptr<const Refraction>> known;
-  static std::shared_ptr<const Refraction> last;  // keeps the usual one between two scans
-  const std::scoped_lock lock(mutex);
-  std::erase_if(known, [](const auto& one) { return one.expired(); });
-  for (const auto& one : known)
-    if (const auto found = one.lock(); found != nullptr && found->air_ == air) return last = found;
-  last = std::make_shared<const Refraction>(air);
-  known.push_back(last);
+  // Of each thread: a lock could be held when the process forks, and the child would wait for it.
+  thread_local std::shared_ptr<const Refraction> last;
+  if (last == nullptr || !(last->air_ == air)) last = std::make_shared<const Refraction>(air);
   return last;
 }
 

@@ -67,7 +67,7 @@ class TracedLifts {
 class Refraction {
  public:
   explicit Refraction(const geo::RefractivityProfile& air);
-  // The object of an atmosphere that all users in the process share.
+  // The last object of the thread, if it has this atmosphere, else a new one.
   static std::shared_ptr<const Refraction> of(const geo::RefractivityProfile& air);
 
   // `radius_m`: radius of curvature of the earth along the ray.

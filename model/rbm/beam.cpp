@@ -43,6 +43,7 @@ Beam::Beam(std::unique_ptr<Algorithm> algorithm, const physics::RadarParameters&
 
 void Beam::use_world(const physics::RadarParameters& parameters, const radar::WorldChanges& changes) {
   if (changes.movers && points_) points_->use_movers(parameters);
+  if (changes.sea && points_) points_->use_sea(parameters);
   if (!changes.sea && !changes.rain) return;
   algorithm_->use_weather(parameters);
   for (Ray& ray : rays_) ray.current = false;

@@ -36,6 +36,7 @@ class PointReturn {
   explicit PointReturn(const physics::RadarParameters& parameters);
   // Replaces the configured movers.
   void use_movers(const physics::RadarParameters& parameters);
+  void use_sea(const physics::RadarParameters& parameters) { movers_.use_sea(parameters); }
 
   // False if there is no mover, and no scene within the range. Then add() changes nothing.
   bool may_return(const physics::SweepGeometry& geometry, const physics::Environment& environment) const;

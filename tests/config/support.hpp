@@ -41,11 +41,11 @@ inline double comparable(double value) {
 
 inline auto fields(const radar::Fidelity& fidelity) {
   const auto& [name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams, slant,
-               noise, azimuth, pulse, beam, diffraction, size, oversampling, layover, response, detail, ground, bounce,
-               map_noise] = fidelity;
+               noise, azimuth, pulse, beam, diffraction, lobes, size, oversampling, layover, response, detail, ground,
+               bounce, map_noise] = fidelity;
   return std::tuple(name, automatic, share, algorithm, earth, comparable(factor), samples, knots, interpolation, posts,
-                    beams, slant, noise, azimuth, pulse, beam, diffraction, size, oversampling, layover, response,
-                    detail, ground, bounce, map_noise);
+                    beams, slant, noise, azimuth, pulse, beam, diffraction, lobes, size, oversampling, layover,
+                    response, detail, ground, bounce, map_noise);
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {
@@ -152,7 +152,7 @@ inline auto fields(const radar::WorldConfiguration& world) {
   const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture, sea_model, life, specular] =
       world.sea;
   const auto& [a, b, dielectric, k, exponent, cells] = world.rain;
-  const auto& [gases, temperature, pressure, water, refractivity, per_km] = world.atmosphere;
+  const auto& [gases, temperature, pressure, water, refractivity, per_km, profile] = world.atmosphere;
   const auto& [radar_power, sidelobes, jammers] = world.jamming;
   const auto& [beacon_code, beacons] = world.beacons;
   const auto lists =

@@ -1,6 +1,8 @@
 // Rows of the radar equation: targets, clutter, jammers, beacons; movers on patch maps.
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -254,6 +256,37 @@ TEST(Truth, AMoverIsDisplacedOnAMap) {
     expect_row({"Movers", std::string("displacement on map, 5 m/s, 20 NM, 480 kt, squint ") + name, outside,
                 0.01 * outside, "m", "R v / (V sin φ), Raney 1971", "the mover goes on during the formation"},
                displacement_m(squint_deg));
+}
+
+// Echo of a steady target 10 m above a calm sea, with the lobes over that without.
+double lobe_db(double distance_m) {
+  const auto echo = [&](bool lobes) {
+    radar::RadarConfiguration configuration = plain();
+    configuration.fidelity.sea_lobes = lobes;
+    configuration.world.sea.wind_speed_mps = 0.0;
+    const radar::Mover target{.position = north(distance_m), .height_m = 10.0, .echo = radar::TargetEcho::steady};
+    return echoes_of(target, configuration, 1).at(0);
+  };
+  return 10.0 * std::log10(echo(true) / echo(false));
+}
+
+// |1 + rho exp(-j phase)|^4 with the exact difference of both ways over a flat sea, and Fresnel's rho.
+TEST(Points, OverACalmSeaHaveTheLobesOfTwoRays) {
+  const double wavelength_m = 299792458.0 / 9.6e9, height_m = 10.0;
+  for (const double distance_m : {18e3, 31e3, 55e3}) {
+    const double sum_m = kAltitude_m + height_m, difference_m = kAltitude_m - height_m;
+    const double ways_m = std::hypot(distance_m, sum_m) - std::hypot(distance_m, difference_m);
+    const double sine = sum_m / std::hypot(distance_m, sum_m), cosine2 = 1.0 - sine * sine;
+    const std::complex<double> root = std::sqrt(std::complex<double>(65.0 - cosine2, -37.0));
+    const std::complex<double> horizontal = (sine - root) / (sine + root);
+    const double field = std::abs(1.0 + horizontal * std::polar(1.0, -2.0 * std::numbers::pi * ways_m / wavelength_m));
+    expect_row({"Targets",
+                "lobe of a target 10 m above a calm sea, " + std::to_string(static_cast<int>(distance_m / 1e3)) +
+                    " km, aircraft at 3,000 m",
+                40.0 * std::log10(field), 1.0, "dB", "two rays over a plane: Skolnik 2001, 8.2; Fresnel",
+                "the reflected ray is taken at the target's place"},
+               lobe_db(distance_m));
+  }
 }
 
 }  // namespace

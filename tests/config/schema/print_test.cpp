@@ -150,6 +150,7 @@ class RandomConfiguration {
     made.core_share = number(0.001, 1);
     made.slant_range = coin();
     made.diffraction = coin();
+    made.sea_lobes = coin();
     made.noise = coin();
     made.azimuth_smear = coin();
     made.pulse_smear = coin();

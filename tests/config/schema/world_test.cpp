@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <string>
 
 #include "config/schema/slot_text.hpp"
 #include "tests/config/support.hpp"
@@ -278,6 +279,46 @@ TEST(World, IsReadFromTheSlotsOfTheRadarWithoutWarning) {
   EXPECT_EQ(configuration.radar.world.movers.size(), 1U);
   EXPECT_EQ(configuration.radar.world.scenes.size(), 1U);
   EXPECT_EQ(configuration.radar.world.beacons.beacons.size(), 1U);
+}
+
+// Writes a file of a sounding, and returns what the configuration says that reads it: its air, or the refusal.
+class Sounding : public ::testing::Test {
+ protected:
+  std::string config_of(const std::string& csv) {
+    return "( Atmosphere :profile \"" + folder_.write("sonde.csv", csv).string() + "\" )";
+  }
+  testing::Folder folder_;
+};
+
+TEST_F(Sounding, AnExponentialProfileIsFoundAgain) {
+  std::string csv = "height_m,refractivity\n";
+  for (int height_m = 10; height_m < 12000; height_m += 400)
+    csv += std::to_string(height_m) + "," + std::to_string(340.0 * std::exp(-0.15e-3 * height_m)) + "\n";
+  const auto air = loaded(config_of(csv)).radar.world.atmosphere;
+  EXPECT_NEAR(air.refractivity, 340.0, 0.01);
+  EXPECT_NEAR(air.refractivity_per_km, 0.15, 1e-5);
+  EXPECT_EQ(air.profile, "");
+}
+
+// The mean annual atmosphere of ITU-R P.835. P.453 gives it 315 N-units that fall by 0.136 per km (h0 = 7.35 km).
+TEST_F(Sounding, TheReferenceAtmosphereHasItsRefractivity) {
+  const auto air = loaded(config_of("# P.835\nheight_m,pressure_hpa,temperature_c,dewpoint_c,remark\n"
+                                    "0,1013.25,15.0,7.2,a\n1000,898.76,8.5,0.2,\n2000,795.0,2.0,,no dew point\n"
+                                    "3000,701.1,-4.5,-13.4,\n5000,540.5,-17.5,-27.0,\n10000,265.0,-50.0,-60.0,\n"))
+                       .radar.world.atmosphere;
+  EXPECT_NEAR(air.refractivity, 315.0, 6.0);
+  EXPECT_NEAR(air.refractivity_per_km, 0.136, 0.012);
+}
+
+TEST_F(Sounding, DuctsAndFilesOfAnotherKindAreRefused) {
+  EXPECT_THAT(refusal(config_of("height_m,refractivity\n0,330\n100,300\n200,295\n300,290\n400,285\n")),
+              HasSubstr("sonde.csv:3: expected refractivity that falls by at most 157 N-units per km, found a duct: it "
+                        "falls by 300 per km"));
+  EXPECT_THAT(refusal(config_of("time,height\n0,330\n")), HasSubstr("expected columns height_m"));
+  EXPECT_THAT(refusal(config_of("height_m,refractivity\n0,330\n1000,300\n")), HasSubstr("expected at least 5 levels"));
+  EXPECT_THAT(refusal(config_of("height_m,refractivity\n0,330\n1000,300\n900,301\n")),
+              HasSubstr("heights that ascend"));
+  EXPECT_THAT(refusal("( Atmosphere :profile \"/nowhere/sonde.csv\" )"), HasSubstr("/nowhere/sonde.csv"));
 }
 
 }  // namespace
