@@ -254,8 +254,8 @@ TracedLifts::TracedLifts(const geo::RefractivityProfile& air, double altitude_m)
           const double weight = (m == 0 ? 1.0 : 2.0) * (n == 0 ? 1.0 : 2.0) / (kSquares * kHeights) *
                                 std::cos(static_cast<double>(m) * chebyshev_angle(i, kSquares)) *
                                 std::cos(static_cast<double>(n) * chebyshev_angle(k, kHeights));
-          coefficients_[m][n].of_elevation += weight * quotients.of_elevation;
-          coefficients_[m][n].of_grazing += weight * quotients.of_grazing;
+          coefficients_[m][n] += weight * quotients.of_elevation;
+          coefficients_[m][kHeights + n] += weight * quotients.of_grazing;
         }
     }
 }
@@ -263,13 +263,15 @@ TracedLifts::TracedLifts(const geo::RefractivityProfile& air, double altitude_m)
 TracedLifts::Quotients TracedLifts::at(double square_m2, double height_m) const {
   const auto squares = chebyshev<kSquares>(fraction_of(square_m2, 0.0, kTracedSquare_m2));
   const auto heights = chebyshev<kHeights>(fraction_of(height_m, kTracedLowest_m, kTracedHighest_m));
-  Quotients found;
+  // The sums over the squares are independent of each other, so that the compiler uses vectors.
+  std::array<double, 2 * kHeights> sums{};
   for (std::size_t m = 0; m < kSquares; ++m)
-    for (std::size_t n = 0; n < kHeights; ++n) {
-      const double weight = squares[m] * heights[n];
-      found.of_elevation += weight * coefficients_[m][n].of_elevation;
-      found.of_grazing += weight * coefficients_[m][n].of_grazing;
-    }
+    for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += squares[m] * coefficients_[m][n];
+  Quotients found;
+  for (std::size_t n = 0; n < kHeights; ++n) {
+    found.of_elevation += heights[n] * sums[n];
+    found.of_grazing += heights[n] * sums[kHeights + n];
+  }
   return found;
 }
 

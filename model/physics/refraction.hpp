@@ -60,7 +60,8 @@ class TracedLifts {
 
  private:
   static constexpr std::size_t kSquares = 8, kHeights = 10;
-  std::array<std::array<Quotients, kHeights>, kSquares> coefficients_{};
+  // By power of the squared distance: those of the elevation, then those of the grazing angle, by power of the height.
+  std::array<std::array<double, 2 * kHeights>, kSquares> coefficients_{};
 };
 
 // Lifts of one atmosphere from all altitudes.

@@ -49,7 +49,7 @@ TEST(Truth, RaysToLevelGroundHaveTheElevationsOfTheExponentialAtmosphere) {
     for (const auto& [name, algorithm, tolerance, why] :
          {std::tuple("reference", radar::Algorithm::reference, 3e-4, "table of traced rays: 0.005 mrad"),
           {"standard", radar::Algorithm::standard, 0.003, "polynomials: 0.05 mrad"}})
-      expect_row({std::string("Elevation of rays, ") + name, "elevation of level ground from " + line.of,
+      expect_row({"Refraction", std::string("elevation of level ground from ") + line.of + ", exponential air, " + name,
                   line.elevation_deg, tolerance, "°", kSource, why},
                  elevation_deg(earth_from(algorithm, line.height_ft)
                                    .sight(feet_m(line.height_ft), miles_m(line.distance_nm), 0.0)
@@ -100,8 +100,8 @@ TEST(Truth, ShadowsAreLongerThanOnTheEffectiveEarth) {
     for (const auto& [name, algorithm, tolerance, why] :
          {std::tuple("reference", radar::Algorithm::reference, 0.001, "the value has three decimals"),
           {"standard", radar::Algorithm::standard, 0.012, "polynomials: 1 % of a shadow at 160 NM"}})
-      expect_row({std::string("Length of shadows, ") + name,
-                  "shadow of a low edge from 30,000 ft, " + std::to_string(static_cast<int>(nm)) +
+      expect_row({"Refraction",
+                  std::string(name) + ", shadow of a low edge from 30,000 ft, " + std::to_string(static_cast<int>(nm)) +
                       " NM, over that on the 4/3 earth",
                   outside, tolerance, "", kSource, why},
                  shadow_m(earth_from(algorithm, 30e3), feet_m(30e3), miles_m(nm)) /
