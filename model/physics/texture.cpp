@@ -1,8 +1,10 @@
 #include "model/physics/texture.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
@@ -22,17 +24,31 @@ std::int32_t TextureSteps::entry(double shape) {
   return known * static_cast<std::int32_t>(kTextureLevels);
 }
 
+namespace {
+using AllLevels = std::array<float, TextureSteps::kEntries>;
+
+std::unique_ptr<const AllLevels> computed_levels() {
+  auto made = std::make_unique<AllLevels>();
+  made->fill(1.0F);
+  for (int step = 0; step < TextureSteps::kShapes; ++step) {
+    const double shape = TextureSteps::kMinShape * std::exp2(static_cast<double>(step) / TextureSteps::kPerOctave);
+    const TextureLevels levels = make_texture_levels(shape);
+    std::copy(levels.begin(), levels.end(), made->begin() + step * static_cast<std::ptrdiff_t>(kTextureLevels));
+  }
+  return made;
+}
+}  // namespace
+
+// Threads that need the table at once compute it each, and one table stays for the life of the process. A lock could
+// be held when the process forks, and the child would wait for it.
 const std::array<float, TextureSteps::kEntries>& TextureSteps::levels() {
-  static const std::array<float, kEntries> all = [] {
-    std::array<float, kEntries> made;
-    made.fill(1.0F);
-    for (int step = 0; step < kShapes; ++step) {
-      const TextureLevels levels = make_texture_levels(kMinShape * std::exp2(static_cast<double>(step) / kPerOctave));
-      std::copy(levels.begin(), levels.end(), made.begin() + step * static_cast<std::ptrdiff_t>(kTextureLevels));
-    }
-    return made;
-  }();
-  return all;
+  static std::atomic<const AllLevels*> known{nullptr};
+  const AllLevels* all = known.load(std::memory_order_acquire);
+  if (all == nullptr) {
+    auto made = computed_levels();
+    if (known.compare_exchange_strong(all, made.get(), std::memory_order_acq_rel)) all = made.release();
+  }
+  return *all;
 }
 
 LandKind land_kind(std::size_t material) {
