@@ -129,8 +129,8 @@ struct BeaconConfiguration {
 // Moving target or corner reflector: a point that follows a geodesic at constant speed.
 struct Mover {
   using Values = values::WorldMover;  // lib/values/fields.hpp
-  std::string name;
-  geo::GeoPoint position;                                        // position at sim time `since`
+  std::string name{};
+  geo::GeoPoint position{};                                      // position at sim time `since`
   double speed_mps = values::WorldMoverDefaults::speed_mps;      // over ground
   double heading_deg = values::WorldMoverDefaults::heading_deg;  // true direction of motion at sim time `since`
   double cross_section_m2 = values::WorldMoverDefaults::cross_section_m2;
