@@ -113,7 +113,9 @@ TEST(ExtremeHeights, InSlantRangeOnlySamplesFromTheNadirOnHavePower) {
       // The sample of the nadir. The echo below the aircraft is shared with the sample before it.
       const auto nadir = static_cast<std::size_t>(above_m / (kRange_m / 400.0));
       for (std::size_t i = 0; i < power.size(); ++i) {
-        if (i + 1 != nadir) EXPECT_EQ(power[i] > 0.0F, i >= nadir) << i << " of " << nadir;
+        if (i + 1 != nadir) {
+          EXPECT_EQ(power[i] > 0.0F, i >= nadir) << i << " of " << nadir;
+        }
       }
     });
   }

@@ -401,7 +401,9 @@ TEST(Relief, ReferenceBendsRaysOverAWall) {
          2.0 * exact_knife_edge_db(v), 1.5, "dB", "Fresnel integrals at the middle of the sample, P.526-15 eq. 26",
          "the loss changes within a sample of 8.5 m; lobes of light are left out by P.526"},
         -10.0 * std::log10(static_cast<double>(bent[i]) / static_cast<double>(open[i])));
-    if (beyond_m < 0.0) EXPECT_EQ(shadow[i], 0.0F);
+    if (beyond_m < 0.0) {
+      EXPECT_EQ(shadow[i], 0.0F);
+    }
   }
 }
 
