@@ -116,7 +116,8 @@ class Stages {
   // culture the stage `sweep` computes the reflectivity.
   void print_ground() {
     memory::CacheAlignedVector<std::int32_t>& codes = ground_.materials();
-    ground_.use_resolution(receiver_.pulse_length_m, request_.range.metres() / static_cast<double>(count_));
+    ground_.use_texture(
+        {receiver_.pulse_length_m, spacing_m_, request_.pose.altitude.metres(), receiver_.azimuth_cell_rad});
     std::fill_n(at(kSpare), count_, 0.1F);
     stage("terrain+codes", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater, kNear, kNearBack, kSpare}, [&](int) {
       terrain_->surfaces(positions_.run(), radar::Interpolation::bilinear, surfaces({codes.data(), count_}));
