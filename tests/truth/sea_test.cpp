@@ -113,7 +113,7 @@ TEST(Truth, TheSeaGlintsTowardsNadir) {
              variance);
   for (const auto& [grazing, grazing_deg, outside] : {std::tuple("90°", 90.0, 13.290), {"80°", 80.0, 8.835}})
     expect_row({"Sea", std::string("σ⁰ of facets in a wind of 5 m/s, grazing ") + grazing, outside, 0.005, "dB",
-                "geometrical optics: |R|²/s² sec⁴θ exp(−tan²θ/s²), |R|² 0.61, by hand", "closed form"},
+                "geometrical optics: R²/s² sec⁴θ exp(−tan²θ/s²), R² 0.61, by hand", "closed form"},
                model::decibels(physics::specular_sigma0(variance, std::sin(grazing_deg * geo::kRadiansPerDegree))));
 }
 
