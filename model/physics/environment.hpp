@@ -123,11 +123,10 @@ class Movers {
 };
 
 // Index of the sample with the centre nearest to a distance over ground. `distance_m` has the centres as from
-// sample_distances(): NaN for the nearest samples, if any, then ascending values.
-// Returns the number of samples if all centres are NaN.
+// sample_distances(): ascending values.
 std::size_t nearest_sample(std::span<const double> distance_m, double target_m);
 
-// Number of samples with a centre that is NaN or nearer than `target_m`.
+// Number of samples with a centre nearer than `target_m`.
 std::size_t samples_nearer(std::span<const double> distance_m, double target_m);
 
 // The same, faster if the number of nearer samples is about `guess`.

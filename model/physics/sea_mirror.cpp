@@ -1,5 +1,6 @@
 #include "model/physics/sea_mirror.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

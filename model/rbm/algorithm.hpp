@@ -34,7 +34,7 @@ struct RayGround {
 
   physics::SweepGeometry geometry;  // of the ray
   std::vector<Sample> samples;
-  std::vector<double> distance_m;    // over ground, ascending; NaN: slant range too short to meet the ground
+  std::vector<double> distance_m;    // over ground, ascending
   std::vector<double> transmission;  // two-way, of the rain; empty: no rain
 };
 

@@ -1,6 +1,7 @@
 // Errors of a patch map and of a scan against the ruler, the map or scan of the reference algorithm. Position errors of
 // a map are measured with marks: bright squares on the ground (no relation to the cursor function MARK).
-// Units: metres, percent of pixels or samples, dB RMS, gray levels RMS; times are thread CPU time [ms].
+// Units: metres, percent of pixels or samples, dB RMS, gray levels RMS, dB of the mean power; times are thread CPU time
+// [ms].
 #pragma once
 
 #include <cstddef>
