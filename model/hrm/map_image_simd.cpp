@@ -206,7 +206,7 @@ void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, fl
   const auto lane = hn::Iota(db, 0U);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto cell = hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i)));
-    const auto bits = physics::simd::HWY_NAMESPACE::noise_bits(state, cell, 0);
+    const auto bits = physics::simd::HWY_NAMESPACE::noise_bits(state, cell);
     // Bits 16 to 31 give the radius.
     const auto high = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(bits)));
     const auto uniform = hn::Add(hn::Mul(high, hn::Set(d, kStep)), hn::Set(d, 0.5F * kStep));

@@ -151,7 +151,7 @@ void Report1996::draw_video(const PatchInputs& inputs, PatchData& data) {
         physics::make_noise_state({seed_, inputs.order.map, static_cast<std::uint32_t>(row)});
     for (std::size_t column = 0; column < size; ++column) {
       const std::size_t at = row * size + column;
-      const auto bits = physics::noise_bits(state, static_cast<std::uint32_t>(column), 0);
+      const auto bits = physics::noise_bits(state, static_cast<std::uint32_t>(column));
       const float random = static_cast<float>(bits) / kHalfOfBits - 1.0F;
       const float level = std::max(image.power[at], 0.0F) * (1.0F + noise * random);
       picture[at] = static_cast<std::uint8_t>(std::min(scale * level + 0.5F, kWhite));

@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "lib/geo/quantity.hpp"
+#include "lib/memory/computed_once.hpp"
 #include "lib/random/counter_rng.hpp"
+#include "model/physics/receiver.hpp"
 
 namespace yars::model::physics {
 
@@ -14,6 +17,52 @@ NoiseState make_noise_state(const NoiseKey& key) {
   const std::uint64_t scan_and_sweep = (static_cast<std::uint64_t>(key.scan) << 32U) | key.sweep;
   const std::uint64_t bits = random::splitmix64(random::splitmix64(key.seed) ^ scan_and_sweep);
   return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32U)};
+}
+
+namespace {
+// Regularized upper incomplete gamma function of a shape n that is a whole number, and the last term of its sum
+// e^-x (1 + x + ... + x^(n-1) / (n-1)!), which is the gamma density at x.
+struct WholeGamma {
+  double upper, density;
+};
+WholeGamma whole_gamma(int shape, double x) {
+  double term = std::exp(-x), sum = term;
+  for (int k = 1; k < shape; ++k) sum += term *= x / k;
+  return {sum, term};
+}
+
+// Levels are means of intervals that are equally probable. The edges come one after the other by Newton's method, each
+// from the one before. The integral of x p(x), p the gamma density of shape n, is n times the distribution of shape
+// n + 1.
+std::unique_ptr<const SpeckleLevels> computed_speckle(int looks) {
+  constexpr auto kLevels = static_cast<double>(kSpeckleLevels);
+  constexpr double kConverged = 1e-12;  // relative change of an edge that ends the iteration
+  constexpr int kMaxSteps = 50;
+  auto levels = std::make_unique<SpeckleLevels>();
+  double edge = std::pow(std::tgamma(looks + 1.0) / kLevels, 1.0 / looks);  // the first, where x is small
+  double beyond = 1.0;                                                      // share of the mean beyond the edge
+  for (std::size_t i = 0; i < kSpeckleLevels; ++i) {
+    const double upper = 1.0 - static_cast<double>(i + 1) / kLevels;
+    double rest = 0.0;
+    if (i + 1 < kSpeckleLevels) {
+      double change = edge;
+      for (int step = 0; step < kMaxSteps && std::abs(change) > kConverged * edge; ++step) {
+        const WholeGamma at = whole_gamma(looks, edge);
+        change = (at.upper - upper) / at.density;
+        edge += change;
+      }
+      rest = whole_gamma(looks + 1, edge).upper;
+    }
+    (*levels)[i] = static_cast<float>((beyond - rest) * kLevels);
+    beyond = rest;
+  }
+  return levels;
+}
+}  // namespace
+
+const SpeckleLevels& speckle_levels(int looks) {
+  static std::array<memory::ComputedOnce<SpeckleLevels>, kMaxLooks + 1> known;
+  return known.at(static_cast<std::size_t>(looks)).get([&] { return computed_speckle(looks); });
 }
 
 SpeckleCells speckle_cells(double spacing_m, double pulse_length_m, NoiseState state) {

@@ -1,7 +1,7 @@
 // Statistics of clutter, the return of ground and sea: speckle and thermal noise of a sweep; texture that is fixed to
 // the ground. Speckle: random fluctuation of a cell's power, because the returns of its many scatterers interfere.
-// Inputs: noise key and index of a resolution cell; geodetic position for texture.
-// Outputs: 32 random bits; texture levels of mean 1.
+// Inputs: noise key and index of a resolution cell; number of looks; geodetic position for texture.
+// Outputs: 32 random bits; levels of speckle and texture, of mean 1.
 // Accuracy: variance of texture within 1 % of 1/shape for shapes >= 1.
 // Threads: pure functions. Equal inputs give equal bits on every machine and in every order.
 // Source: docs/spec/physics.md#speckle.
@@ -25,19 +25,28 @@ struct NoiseState {
   std::uint32_t second = 0;
 };
 
-// Speckle sums exponential variates, one per look. Four looks are computed together: two draws of 32 bits give four
-// uniform numbers, and minus the logarithm of their product is the sum.
-inline constexpr int kLooksPerGroup = 4;
-inline constexpr std::uint32_t kDrawsPerCell = 8;  // draws for kMaxLooks (receiver.hpp), two looks per draw
-
 // Prime near 2^32 / golden ratio. Its first thousands of multiples differ in their upper bits.
 inline constexpr std::uint32_t kGoldenSection = 0x9e3779b1U;
 
 NoiseState make_noise_state(const NoiseKey& key);
 
-// 32 random bits of a resolution cell and a draw in [0, kDrawsPerCell).
-inline std::uint32_t noise_bits(NoiseState state, std::uint32_t cell, std::uint32_t draw) {
-  const std::uint32_t bits = random::lowbias32((cell * kDrawsPerCell + draw) ^ state.first) ^ state.second;
+// Speckle of L looks: the mean of L exponential variates, which is a gamma variate of mean 1 and variance 1/L.
+// The upper bits of noise_bits() select one of the levels, which are equally probable. Each is the mean of its
+// interval.
+inline constexpr unsigned kSpeckleBits = 12;
+inline constexpr std::size_t kSpeckleLevels = 1U << kSpeckleBits;
+using SpeckleLevels = std::array<float, kSpeckleLevels>;
+
+// Variance is within 0.1 % of 1/looks. `looks` is in [1, kMaxLooks] (receiver.hpp). The levels stay for the life of the
+// process.
+const SpeckleLevels& speckle_levels(int looks);
+
+// Distance between the numbers of two resolution cells. The noise of every picture depends on it.
+inline constexpr std::uint32_t kCellStride = 8;
+
+// 32 random bits of a resolution cell.
+inline std::uint32_t noise_bits(NoiseState state, std::uint32_t cell) {
+  const std::uint32_t bits = random::lowbias32((cell * kCellStride) ^ state.first) ^ state.second;
   const std::uint32_t keyed = bits * kGoldenSection;
   return keyed ^ (keyed >> 15U);
 }

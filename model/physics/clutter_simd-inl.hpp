@@ -52,10 +52,10 @@ HWY_INLINE GroundFloats by_code(const float* table, GroundInts code) {
 
 // noise_bits() of clutter.hpp for a vector of cells.
 template <class V>
-HWY_INLINE V noise_bits(NoiseState state, V cell, std::uint32_t draw) {
+HWY_INLINE V noise_bits(NoiseState state, V cell) {
   const hn::DFromV<V> d;
-  const auto number = hn::Add(hn::Mul(cell, hn::Set(d, kDrawsPerCell)), hn::Set(d, draw));
-  const auto bits = random::HWY_NAMESPACE::lowbias32(hn::Xor(number, hn::Set(d, state.first)));
+  static_assert(kCellStride == 8);
+  const auto bits = random::HWY_NAMESPACE::lowbias32(hn::Xor(hn::ShiftLeft<3>(cell), hn::Set(d, state.first)));
   const auto keyed = hn::Mul(hn::Xor(bits, hn::Set(d, state.second)), hn::Set(d, kGoldenSection));
   return hn::Xor(keyed, hn::ShiftRight<15>(keyed));
 }

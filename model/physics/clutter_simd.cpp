@@ -71,26 +71,13 @@ using Tag = hn::CappedTag<float, kMaxLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
-using Bits = hn::Vec<BitsTag>;
 
 constexpr float kDecibelsPerOctave = 3.01029996F;  // 10 log10(2)
-constexpr float kLn2 = 0.693147181F;
 
-// Uniform variate in (0, 1) from 16 bits; 1 if `used` is false.
-HWY_INLINE Floats uniform(Bits sixteen, bool used) {
-  const Tag d;
-  if (!used) return hn::Set(d, 1.0F);
-  constexpr float kStep = 1.0F / 65536.0F;
-  const auto number = hn::ConvertTo(d, hn::BitCast(SignedTag(), sixteen));
-  return polynomials::step(d, number, hn::Set(d, kStep), 0.5F * kStep);
-}
-
-void speckle(std::size_t count, NoiseState state, int looks, SpeckleCells cells, float* variate) {
+void speckle(std::size_t count, NoiseState state, const float* levels, SpeckleCells cells, float* variate) {
   const Tag d;
   const SignedTag di;
   const BitsTag db;
-  const auto low = hn::Set(db, 0xffffU);
-  const auto scale = hn::Set(d, kLn2 / static_cast<float>(looks));
   // The lane numbers are made outside the loop, because Iota loads them from memory.
   const auto lane = hn::Iota(d, 0.5F);
   const auto after = [&](Floats along, float start) { return hn::ConvertTo(di, hn::Add(along, hn::Set(d, start))); };
@@ -98,19 +85,8 @@ void speckle(std::size_t count, NoiseState state, int looks, SpeckleCells cells,
     const auto sample = hn::Add(lane, hn::Set(d, static_cast<float>(static_cast<std::int32_t>(i))));
     const auto along = hn::Mul(sample, hn::Set(d, cells.per_sample));
     const auto cell = hn::BitCast(db, hn::Add(after(along, cells.first), after(along, cells.second)));
-    auto sum = hn::Zero(d);
-    for (int first = 0; first < looks; first += kLooksPerGroup) {
-      // The sum of up to four exponential variates is minus the logarithm of a product of uniform variates.
-      const auto draw = static_cast<std::uint32_t>(first / 2);
-      const auto one = noise_bits(state, cell, draw);
-      const auto two = noise_bits(state, cell, draw + 1U);
-      const auto a = uniform(hn::ShiftRight<16>(one), true);
-      const auto b = uniform(hn::And(one, low), looks - first > 1);
-      const auto c = uniform(hn::ShiftRight<16>(two), looks - first > 2);
-      const auto e = uniform(hn::And(two, low), looks - first > 3);
-      sum = hn::Sub(sum, polynomials::log2(d, hn::Mul(hn::Mul(a, b), hn::Mul(c, e))));
-    }
-    hn::StoreU(hn::Mul(sum, scale), d, variate + i);
+    const auto level = hn::BitCast(di, hn::ShiftRight<32 - static_cast<int>(kSpeckleBits)>(noise_bits(state, cell)));
+    hn::StoreU(hn::GatherIndex(d, levels, level), d, variate + i);
   }
 }
 
@@ -220,7 +196,7 @@ HWY_EXPORT(speckle);
 HWY_EXPORT(form_video);
 
 void speckle(std::size_t count, NoiseState state, int looks, SpeckleCells cells, float* variate) {
-  HWY_DYNAMIC_DISPATCH(speckle)(count, state, looks, cells, variate);
+  HWY_DYNAMIC_DISPATCH(speckle)(count, state, speckle_levels(looks).data(), cells, variate);
 }
 void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
   HWY_DYNAMIC_DISPATCH(form_video)(count, inputs, video);

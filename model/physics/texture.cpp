@@ -1,13 +1,13 @@
 #include "model/physics/texture.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
+#include "lib/memory/computed_once.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/world.hpp"
 #include "model/physics/ray.hpp"
@@ -39,16 +39,9 @@ std::unique_ptr<const AllLevels> computed_levels() {
 }
 }  // namespace
 
-// Threads that need the table at once compute it each, and one table stays for the life of the process. A lock could
-// be held when the process forks, and the child would wait for it.
 const std::array<float, TextureSteps::kEntries>& TextureSteps::levels() {
-  static std::atomic<const AllLevels*> known{nullptr};
-  const AllLevels* all = known.load(std::memory_order_acquire);
-  if (all == nullptr) {
-    auto made = computed_levels();
-    if (known.compare_exchange_strong(all, made.get(), std::memory_order_acq_rel)) all = made.release();
-  }
-  return *all;
+  static memory::ComputedOnce<AllLevels> all;
+  return all.get(computed_levels);
 }
 
 LandKind land_kind(std::size_t material) {

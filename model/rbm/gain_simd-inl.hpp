@@ -84,11 +84,7 @@ class ElevationGain {
     const auto spread = max(mul_sub(constant<Group>(c_.sin_centre_tilt), out_m_, rise), zero());
     const auto numerator = mul(constant<Group>(c_.sin_centre * c_.sin_centre), slant_square_);
     Gain<Group> gain{numerator, max(mul(spread, spread), numerator)};
-    if (twice) {
-      // As a ratio, because the fourth power of a range exceeds the range of a float.
-      const auto ratio = div(gain.numerator, gain.denominator);
-      gain = {mul(ratio, ratio), one()};
-    }
+    if (twice) gain = {mul(gain.numerator, gain.numerator), mul(gain.denominator, gain.denominator)};
     // Most ground is below the antenna axis. The Gaussian is computed only if a lane is above the axis.
     const auto above = less(below_, zero());
     if (none(above)) return gain;

@@ -12,16 +12,6 @@ namespace yars::model::rbm {
 namespace {
 constexpr double kClear = -0.78;  // parameter of diffraction below which there is no loss
 
-// Speckle of mean 1 and variance 1/looks: the mean of `looks` exponential variates of 16 random bits each.
-double speckle(physics::NoiseState state, std::uint32_t cell, int looks) {
-  double sum = 0.0;
-  for (int i = 0; i < looks; ++i) {
-    const std::uint32_t bits = physics::noise_bits(state, cell, static_cast<std::uint32_t>(i / 2));
-    const std::uint32_t half = i % 2 == 0 ? bits >> 16U : bits & 0xffffU;
-    sum -= std::log((half + 0.5) / 65536.0);
-  }
-  return sum / looks;
-}
 }  // namespace
 
 Reference::Reference(const physics::RadarParameters& parameters)
@@ -324,7 +314,8 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
     const double range_m = (static_cast<double>(i) + 0.5) * spacing_m;
     double total = power + physics::time_control(receiver, range_m) * (receiver.noise + window.jamming);
     if (fidelity_.noise) {
-      total *= speckle(state, physics::cell_of(static_cast<std::uint32_t>(i), cells), window.looks);
+      const std::uint32_t bits = physics::noise_bits(state, physics::cell_of(static_cast<std::uint32_t>(i), cells));
+      total *= static_cast<double>(physics::speckle_levels(window.looks)[bits >> (32U - physics::kSpeckleBits)]);
     }
     const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.dynamic_range_db;
     video[i] = static_cast<std::uint8_t>(std::lround(std::clamp(255.0 * level, 0.0, 255.0)));

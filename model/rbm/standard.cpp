@@ -231,7 +231,7 @@ simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& geo
   c.pulse_inverse = static_cast<float>(1.0 / receiver.pulse_length_m);
   c.beam_inverse = static_cast<float>(1.0 / beam_rad);
   c.scale = static_cast<float>(receiver.azimuth_cell_rad / (receiver.full_scale * range_m * range_m * range_m));
-  c.range_inverse = static_cast<float>(1.0 / range_m);
+  c.range_m = static_cast<float>(range_m);
   c.range_power = static_cast<float>(receiver.stc_exponent - 3.0);
   c.sin_elevation = static_cast<float>(std::sin(elevation_rad));
   c.cos_elevation = static_cast<float>(std::cos(elevation_rad));

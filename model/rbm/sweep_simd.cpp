@@ -157,7 +157,7 @@ class SweepPass {
         in_(in),
         out_(out),
         ground_(in.ground != nullptr ? *in.ground : none_),
-        range_octaves_(hn::Neg(polynomials::log2(Tag(), constant<Floats>(constants.range_inverse)))) {}
+        range_octaves_(polynomials::log2(Tag(), constant<Floats>(constants.range_m))) {}
 
   template <class Group>
   HWY_INLINE void measure(std::size_t i) {
@@ -225,17 +225,25 @@ class SweepPass {
       power.of_ground = mul(power.of_ground, factor);
       power.per_gamma = mul(power.per_gamma, factor);
     };
-    if (c_.range_power != 0.0F) {
-      scale(each(
-          [&](Floats x) {
-            const auto octaves = hn::Sub(hn::Mul(polynomials::log2(Tag(), x), constant<Floats>(0.5F)), range_octaves_);
-            return polynomials::exp2(Tag(), hn::Mul(constant<Floats>(c_.range_power), octaves));
-          },
-          slant_square));
-    }
+    if (c_.range_power != 0.0F) scale(time_control(slant_square));
     if (in_.gas.constant != nullptr) scale(gas(i, height));
     store(power.of_ground, out_.power + i);
     if (out_.power_per_gamma != nullptr) store(power.per_gamma, out_.power_per_gamma + i);
+  }
+  // Sensitivity time control beyond its exponent 3. Those of the beams (even_exponent() in receiver.cpp) are products.
+  template <class Group>
+  HWY_INLINE Group time_control(const Group& slant_square) const {
+    if (c_.range_power == -3.0F || c_.range_power == -1.0F) {
+      const auto ratio = mul(inverse_root(slant_square), constant<Group>(c_.range_m));
+      return c_.range_power == -1.0F ? ratio : mul(mul(ratio, ratio), ratio);
+    }
+    return each(
+        [&](Floats square) {
+          const auto octaves =
+              hn::Sub(hn::Mul(polynomials::log2(Tag(), square), constant<Floats>(0.5F)), range_octaves_);
+          return polynomials::exp2(Tag(), hn::Mul(constant<Floats>(c_.range_power), octaves));
+        },
+        slant_square);
   }
   template <class Group>
   HWY_INLINE Group gas(std::size_t i, const Group& height) const {
@@ -252,7 +260,7 @@ class SweepPass {
   const physics::simd::GroundInputs none_;  // for ground_ if in.ground is null
   clutter::GroundCache ground_;
   RunningMaximum horizon_;
-  const Floats range_octaves_;  // log2 of R0 [m], the range at which sensitivity time control is 1
+  const Floats range_octaves_;  // log2 of c_.range_m
 };
 
 // Tangents of the ground shortly before the samples where it reaches the horizon, else kNoHorizon.

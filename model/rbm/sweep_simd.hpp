@@ -33,7 +33,7 @@ struct SweepConstants {
   float pulse_inverse = 0.0F;  // [1/m] 1 / (c tau / 2); tau is the pulse duration
   float beam_inverse = 0.0F;   // [1/rad] 1 / theta_el; theta_el is the elevation beamwidth
   float scale = 0.0F;          // theta / (full scale R0^3); theta is the width of the clutter cell in azimuth
-  float range_inverse = 0.0F;  // [1/m] 1 / R0; sensitivity time control is 1 at slant range R0
+  float range_m = 0.0F;        // slant range at which sensitivity time control is 1
   float range_power = 0.0F;    // exponent of the sensitivity time control, minus 3
   float sin_elevation = 0.0F;  // sine of the antenna elevation, positive above the horizontal
   float cos_elevation = 1.0F;

@@ -39,7 +39,7 @@ def cells(row):
 
 def rendered(rows):
     lines = [HEAD]
-    for topic in dict.fromkeys(row["topic"] for row in rows):
+    for topic in sorted({row["topic"] for row in rows}):
         lines += [f"## {topic}", "| term | outside | YARS | tolerance | source | why this tolerance |",
                   "| --- | --- | --- | --- | --- | --- |"]
         lines += ["| " + " | ".join(cells(row)) + " |" for row in rows if row["topic"] == topic] + [""]

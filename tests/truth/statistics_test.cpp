@@ -205,6 +205,22 @@ TEST(Truth, LooksGoWithTheDopplerSpreadOfTheBeam) {
   }
 }
 
+TEST(Truth, SpeckleHasTheQuantilesOfGammaVariates) {
+  struct Quantile {
+    int looks;
+    double percent, chi_square;
+  };
+  for (const auto& [looks, percent, chi_square] :
+       {Quantile{1, 95.0, 5.991}, {4, 5.0, 2.733}, {4, 95.0, 15.507}, {8, 95.0, 26.296}, {16, 5.0, 20.072}}) {
+    const auto level = static_cast<std::size_t>(percent / 100.0 * static_cast<double>(physics::kSpeckleLevels));
+    expect_row(
+        {"Speckle", std::to_string(static_cast<int>(percent)) + " % of the speckle of " + looks_of(looks) + " is below",
+         chi_square / (2.0 * looks), 0.005, "",
+         "χ² of 2L degrees of freedom over 2L, Abramowitz and Stegun, table 26.8", "4,096 levels"},
+        static_cast<double>(physics::speckle_levels(looks)[level]));
+  }
+}
+
 // <I^2> / <I>^2 of single-look ground with a texture.
 double second_moment(double shape) {
   radar::RadarConfiguration configuration;

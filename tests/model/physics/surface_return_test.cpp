@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "model/physics/clutter.hpp"
 #include "model/physics/ground_return.hpp"
+#include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
@@ -103,6 +105,22 @@ TEST(SurfaceReturn, WithTextureIsKDistributed) {
     EXPECT_NEAR(found.mean, 1.0, 0.02) << shape << ", " << looks;
     EXPECT_NEAR(found.variance / (found.mean * found.mean) / (texture * (1.0 + 1.0 / looks) - 1.0), 1.0, 0.03)
         << shape << ", " << looks;
+  }
+}
+
+TEST(Speckle, LevelsAscendAndHaveTheMomentsOfTheirLooks) {
+  for (int looks = 1; looks <= physics::kMaxLooks; ++looks) {
+    double sum = 0.0, squares = 0.0, last = 0.0;
+    for (const float entry : physics::speckle_levels(looks)) {
+      const auto level = static_cast<double>(entry);
+      EXPECT_GE(level, last) << looks;
+      last = level;
+      sum += level;
+      squares += level * level;
+    }
+    const double mean = sum / physics::kSpeckleLevels;
+    EXPECT_NEAR(mean, 1.0, 1e-6) << looks;
+    EXPECT_NEAR(looks * (squares / physics::kSpeckleLevels - mean * mean), 1.0, 1e-3) << looks;
   }
 }
 
