@@ -225,19 +225,44 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
          kNoiseWindow_m / window.metres();
 }
 
+namespace {
+// Speckle of a row with weaker speckle in the pixels with point targets: `variates`, or a copy in `held`.
+const float* hold_steady(const MapImage& image, std::size_t row, float thermal, const float* variates,
+                         std::vector<float>& held) {
+  const auto size = static_cast<std::size_t>(image.size);
+  const auto before = [](const physics::SteadyPower& part, std::size_t pixel) { return part.at < pixel; };
+  auto part = std::lower_bound(image.steady.begin(), image.steady.end(), row * size, before);
+  const auto end = std::lower_bound(part, image.steady.end(), (row + 1) * size, before);
+  if (part == end) return variates;
+  held.assign(variates, variates + size + kSlack);
+  while (part != end) {
+    const std::uint32_t pixel = part->at;
+    float steady = 0.0F;
+    for (; part != end && part->at == pixel; ++part) steady += part->power;
+    float& variate = held[pixel - row * size];
+    variate = physics::with_steady(variate, static_cast<double>(steady / (image.power[pixel] + thermal)));
+  }
+  return held.data();
+}
+}  // namespace
+
 void form_video(const radar::HighResolutionConfiguration& hrm, const MapImage& image, const MapNoise& noise, int first,
                 int last, std::vector<std::uint8_t>& picture) {
   const auto size = static_cast<std::size_t>(image.size);
   Speckle speckle(image.size, noise.looks, noise.seed, noise.map);
   constexpr std::array<float, 3> kNoSmear{0.0F, 1.0F, 0.0F};
+  const auto thermal = static_cast<float>(noise.thermal);
+  std::vector<float> held;
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* power = &image.power[row * size];
+    const float* variates = noise.with_speckle ? speckle.row(static_cast<int>(row)) : nullptr;
+    if (variates != nullptr) variates = hold_steady(image, row, thermal, variates, held);
     const physics::simd::VideoInputs inputs{power,
                                             power,
                                             power,
                                             kNoSmear.data(),
-                                            static_cast<float>(noise.thermal),
-                                            noise.with_speckle ? speckle.row(static_cast<int>(row)) : nullptr,
+                                            thermal,
+                                            variates,
                                             static_cast<float>(-hrm.brightest_gamma_db),
                                             static_cast<float>(hrm.dynamic_range_db),
                                             nullptr};

@@ -39,6 +39,8 @@ struct MapImage {
   int size;
   memory::CacheAlignedVector<float> power;
   bool blind = false;  // true if any pixel is blind
+  // What of `power` comes from point targets, by ascending pixel number, which may occur several times.
+  std::vector<physics::SteadyPower> steady;
 };
 
 // Cross section [m^2] of a pixel of level ground with gamma 1 at the map's centre. MapImage::power is the cross section
@@ -148,8 +150,6 @@ struct MapNoise {
 // Forms video of rows [first, last). `picture` has the size of the image. Blind pixels are black.
 void form_video(const radar::HighResolutionConfiguration& hrm, const MapImage& image, const MapNoise& noise, int first,
                 int last, std::vector<std::uint8_t>& picture);
-
-struct MapImage;
 
 // Surface label: material code of DFAD and scene object of a surface in one number. The upper 5 bits are the code, the
 // lower 27 bits 1 + the index into SceneView::objects(), or 0 for ground without scene.

@@ -25,7 +25,10 @@ void splat(const Response& response, double column, double row, double power, Ma
     for (std::size_t i = 0; i < across.size(); ++i) {
       const int x = first_column + static_cast<int>(i);
       if (x < 0 || x >= image.size) continue;
-      image.power[image.at(x, y)] += static_cast<float>(power) * across[i] * down[j];
+      const float added = static_cast<float>(power) * across[i] * down[j];
+      const std::size_t pixel = image.at(x, y);
+      image.power[pixel] += added;
+      image.steady.push_back({static_cast<std::uint32_t>(pixel), added});
     }
   }
 }
@@ -127,8 +130,10 @@ void MapMovers::find_hidden(const PatchGeometry& geometry, const Horizons& horiz
 
 void MapMovers::draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
                      const Response& response, MapImage& image) const {
+  image.steady.clear();
   for (const Target& target : targets_)
     if (!target.hidden) draw_point(target, order, geometry, formation, response, image);
+  std::ranges::stable_sort(image.steady, {}, &physics::SteadyPower::at);
 }
 
 void MapMovers::draw_point(const Target& target, const PatchOrder& order, const PatchGeometry& geometry,

@@ -29,6 +29,7 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
   }
   flags_.assign(positions_.size(), 0U);
   jamming_.assign(positions_.size(), 0.0);
+  steady_.resize(positions_.size());
   power_.assign(positions_.size() * samples_, 0.0F);
   sweeps_.resize(positions_.size());
   ready_ = std::vector<std::atomic<std::uint8_t>>(std::max(positions_.size() / kSweepsPerPiece, std::size_t{1}));
@@ -72,6 +73,8 @@ void OfflineScan::measure_sweep(std::size_t sweep, std::size_t thread, const phy
   const physics::SweepGeometry geometry = geometry_of(positions_[sweep]);
   jamming_[sweep] = strobes_[thread].level(geometry, environment.terrain);
   const std::size_t pending = beams_[thread].measure(geometry, environment, power_of(sweep));
+  const auto steady = beams_[thread].steady();
+  steady_[sweep].assign(steady.begin(), steady.end());
   flags_[sweep] = pending > 0 || !environment.scenes_ready ? databuffer::kSweepNotReady : 0U;
 }
 
@@ -87,8 +90,9 @@ void OfflineScan::form_sweep_video(std::size_t sweep, std::size_t thread) {
   labels.flags = flags_[before] | flags_[sweep] | flags_[after];
   if (sweep == 0) labels.flags |= databuffer::kSweepScanStart;
   if (sweep == last) labels.flags |= databuffer::kSweepScanEnd;
-  finish_sweep(beams_[thread], seed_, positions_[sweep], labels,
-               {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
+  physics::PowerWindow window{power_of(before), power_of(sweep), power_of(after), jamming_[sweep]};
+  window.steady = {steady_[before], steady_[sweep], steady_[after]};
+  finish_sweep(beams_[thread], seed_, positions_[sweep], labels, window, sweeps_[sweep]);
 }
 
 // Call it when a thread takes the piece to form it, and when it or a neighbour is measured. The last of these calls

@@ -85,8 +85,9 @@ class OfflineScan {
   std::vector<rbm::Strobes> strobes_;  // one per thread
   std::vector<SweepHeader> positions_;
   std::vector<std::uint32_t> flags_;
-  std::vector<double> jamming_;              // by sweep; full scale = 1
-  memory::CacheAlignedVector<float> power_;  // sweep after sweep
+  std::vector<double> jamming_;                            // by sweep; full scale = 1
+  std::vector<std::vector<physics::SteadyPower>> steady_;  // by sweep
+  memory::CacheAlignedVector<float> power_;                // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
   parallel::ChunkQueues to_measure_, to_form_;  // pieces
   // By piece: number of measured pieces among itself and its neighbours, and one when a thread has taken it to form it.

@@ -64,7 +64,10 @@ SweepChain::SweepChain(const physics::RadarParameters& parameters)
       beam_(parameters),
       strobes_(parameters),
       beacons_(parameters) {
-  for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
+  for (Measured& measured : measured_) {
+    measured.power.assign(samples_, 0.0F);
+    measured.steady.reserve(samples_);
+  }
 }
 
 void SweepChain::use_world(const physics::RadarParameters& parameters, const radar::WorldChanges& changes) {
@@ -95,15 +98,19 @@ void SweepChain::receive(Measured& measured, const physics::Environment& environ
   const Labels& labels = measured.labels;
   const physics::SweepGeometry geometry = geometry_of(measured.header);
   const bool blank = (labels.flags & databuffer::kSweepBlank) != 0U;
+  measured.steady.clear();
   measured.jamming = blank ? 0.0 : strobes_.level(geometry, environment.terrain);
   if ((labels.flags & kNoEchoFlags) != 0U || labels.no_return) {
     std::fill(measured.power.begin(), measured.power.end(), 0.0F);
   } else if (is_beacon(labels)) {
     beacons_.measure(geometry, environment.terrain, measured.power);
+    for (std::size_t i = 0; i < measured.power.size(); ++i)
+      if (measured.power[i] > 0.0F) measured.steady.push_back({static_cast<std::uint32_t>(i), measured.power[i]});
   } else {
     physics::Environment in_scan = environment;
     in_scan.scan = labels.scan;
     const std::size_t pending = beam_.measure(geometry, in_scan, measured.power);
+    measured.steady.assign(beam_.steady().begin(), beam_.steady().end());
     posts_pending_ += pending;
     if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
     flag_descendant(measured.labels);
@@ -133,7 +140,9 @@ void SweepChain::finish(const Measured& before, const Measured& centre, const Me
   Labels labels = centre.labels;
   // The smear mixes in the neighbours' power, so their flag kSweepNotReady applies to this sweep too.
   labels.flags |= (before.labels.flags | after.labels.flags) & databuffer::kSweepNotReady;
-  finish_sweep(beam_, seed_, centre.header, labels, {before.power, centre.power, after.power, centre.jamming}, sweep);
+  physics::PowerWindow window{before.power, centre.power, after.power, centre.jamming};
+  window.steady = {before.steady, centre.steady, after.steady};
+  finish_sweep(beam_, seed_, centre.header, labels, window, sweep);
 }
 
 void finish_sweep(rbm::Beam& beam, std::uint64_t seed, const SweepHeader& header, const SweepChain::Labels& labels,

@@ -103,6 +103,7 @@ class SweepChain {
     Labels labels;
     double jamming = 0.0;  // received jamming power, equal in all samples; full scale = 1
     memory::CacheAlignedVector<float> power;
+    std::vector<physics::SteadyPower> steady;  // of `power`
   };
   void begin_pass();
   void flag_descendant(Labels& labels);

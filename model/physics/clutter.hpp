@@ -7,7 +7,10 @@
 // Source: docs/spec/physics.md#speckle.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "lib/geo/geodesy.hpp"
@@ -49,6 +52,13 @@ inline std::uint32_t noise_bits(NoiseState state, std::uint32_t cell) {
   const std::uint32_t bits = random::lowbias32((cell * kCellStride) ^ state.first) ^ state.second;
   const std::uint32_t keyed = bits * kGoldenSection;
   return keyed ^ (keyed >> 15U);
+}
+
+// Speckle of a cell where a share of the mean power is steady. Its difference from 1 is smaller, so that the variance /
+// mean^2 is (1 - share^2) / looks, as of a constant signal in Gaussian noise (Rice).
+inline float with_steady(float speckle, double share) {
+  const double held = std::clamp(share, 0.0, 1.0);
+  return static_cast<float>(1.0 + (static_cast<double>(speckle) - 1.0) * std::sqrt(1.0 - held * held));
 }
 
 // Cells of speckle along a sweep. Samples of one cell fluctuate together. Two rulers of the pulse length L, with random

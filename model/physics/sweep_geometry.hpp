@@ -69,6 +69,12 @@ struct NoiseKey {
   std::uint32_t sweep = 0;
 };
 
+// Power of point targets in a sample of a sweep or a pixel of a map. It is the same in all looks.
+struct SteadyPower {
+  std::uint32_t at = 0;  // number of the sample or pixel
+  float power = 0.0F;
+};
+
 // Power of a sweep and of its two neighbours in time, full scale = 1. Each span has one value per video sample.
 // A pass is one crossing of the scan width. At its first and its last sweep the missing neighbour is the sweep itself.
 struct PowerWindow {
@@ -78,6 +84,8 @@ struct PowerWindow {
   double jamming = 0.0;  // power received by the centre sweep at every range; full scale = 1
   double automatic_gain_db = 0.0;
   int looks = 1;  // independent looks averaged in each sample: Receiver::looks_of()
+  // What of the three powers comes from movers and traffic. A sample may occur several times.
+  std::array<std::span<const SteadyPower>, 3> steady{};
 };
 
 // Weights of the azimuth smear over three sweeps. The sum is 1, which conserves power. Source: the 1996 report.

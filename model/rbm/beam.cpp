@@ -154,6 +154,7 @@ std::size_t Beam::measure(const physics::SweepGeometry& geometry, const physics:
     grounds_.push_back(&ground);
   }
   if (with_points) points_->add(geometry, environment, grounds_, power);
+  steady_ = with_points ? points_->steady() : std::span<const physics::SteadyPower>();
   return pending;
 }
 

@@ -56,6 +56,8 @@ class Beam {
   // As Algorithm::measure(), with point targets. Returns the sum over the rays.
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power);
+  // PowerWindow::steady of the last sweep that was measured.
+  std::span<const physics::SteadyPower> steady() const { return steady_; }
   // Number of rays measured since the start of the pass.
   std::size_t rays() const { return measured_; }
   // As Algorithm::lit(), of the ray nearest the beam's centre.
@@ -105,6 +107,7 @@ class Beam {
   std::vector<Member> beam_;  // from left to right
   std::vector<simd::WeightedRay> weighted_;
   std::vector<const RayGround*> grounds_;  // of beam_
+  std::span<const physics::SteadyPower> steady_;
   std::size_t measured_ = 0;
   int circle_;  // number of rays around the horizon
 };

@@ -40,8 +40,10 @@ PointReturn::PointReturn(const physics::RadarParameters& parameters)
       tables_(surface_),
       echoes_(kEchoes),
       points_(parameters.samples),
-      smeared_(parameters.samples) {
+      smeared_(parameters.samples),
+      first_(parameters.samples) {
   rays_.reserve(radar::kMaxSubBeams + 2);
+  steady_.reserve(parameters.samples);
 }
 
 void PointReturn::use_movers(const physics::RadarParameters& parameters) {
@@ -69,8 +71,7 @@ void PointReturn::add(const physics::SweepGeometry& geometry, const physics::Env
     smear_ = physics::make_pulse_smear(pulse_samples);
   }
   set_rays(geometry, rays);
-  first_ = points_.size();
-  end_ = 0;
+  steady_.clear();
   const Sweep sweep{geometry,
                     environment,
                     receiver_,
@@ -79,8 +80,9 @@ void PointReturn::add(const physics::SweepGeometry& geometry, const physics::Env
                     wrapped_rad(geometry.azimuth.radians()),
                     fast_ ? kNegligible * receiver_.noise : 0.0};
   add_movers(sweep);
+  smear_into(power, &steady_);
   if (environment.scenes != nullptr) add_scenes(sweep, *environment.scenes);
-  if (first_ < end_) smear_into(power);
+  smear_into(power, nullptr);
 }
 
 void PointReturn::set_rays(const physics::SweepGeometry& geometry, std::span<const RayGround* const> rays) {
@@ -316,7 +318,8 @@ void PointReturn::spread(const RayGround& ground, const Echo& echo, double exten
 }
 
 // Spreads the power of the targets over the pulse, and adds it to the samples.
-void PointReturn::smear_into(std::span<float> power) {
+void PointReturn::smear_into(std::span<float> power, std::vector<physics::SteadyPower>* steady) {
+  if (first_ >= end_) return;
   const auto reach = static_cast<std::size_t>(smear_.reach);
   const std::size_t begin = first_ - std::min(first_, reach), end = std::min(end_ + reach, power.size());
   for (std::size_t i = first_; i < end_; ++i) {
@@ -326,9 +329,13 @@ void PointReturn::smear_into(std::span<float> power) {
     points_[i] = 0.0;
   }
   for (std::size_t i = begin; i < end; ++i) {
-    power[i] += static_cast<float>(smeared_[i]);
+    const auto added = static_cast<float>(smeared_[i]);
+    power[i] += added;
+    if (steady != nullptr && added > 0.0F) steady->push_back({static_cast<std::uint32_t>(i), added});
     smeared_[i] = 0.0;
   }
+  first_ = points_.size();
+  end_ = 0;
 }
 
 }  // namespace yars::model::rbm

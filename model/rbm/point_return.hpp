@@ -4,7 +4,8 @@
 // between the two rays of the beam beside it. A mover is lit or hidden along its own azimuth. The nearest ray has the
 // rain on the way.
 // Inputs: geometry of the sweep, scenes, traffic, the ground along the beam's rays.
-// Outputs: power of the targets, smeared over the pulse and added to the power of the samples; full scale = 1.
+// Outputs: power of the targets, smeared over the pulse and added to the power of the samples, and the steady part of
+// it; full scale = 1.
 // Accuracy: double precision; the algorithms `reference` and `standard` both use this class. Of `standard` the cross
 // sections are in float (scene_simd.hpp), echoes below a millionth of the noise are left out, and the ground between
 // samples is straight where nothing stands out (RayGround::slope).
@@ -41,10 +42,12 @@ class PointReturn {
   // False if there is no mover, and no scene within the range. Then add() changes nothing.
   bool may_return(const physics::SweepGeometry& geometry, const physics::Environment& environment) const;
 
-  // Adds the power of the targets in the beam to `power`. `rays`: ground of the beam's rays from left to right, at
+  // Adds the power of the targets in the beam to `power`. steady() has the part of movers and traffic until the next
+  // call. `rays`: ground of the beam's rays from left to right, at
   // equal steps of azimuth. They may have been measured shortly before the sweep, from another position.
   void add(const physics::SweepGeometry& geometry, const physics::Environment& environment,
            std::span<const RayGround* const> rays, std::span<float> power);
+  std::span<const physics::SteadyPower> steady() const { return steady_; }
 
  private:
   // A scatterer as seen from one apex. It does not depend on the beam's azimuth, so the sweeps of a scan share it.
@@ -126,7 +129,8 @@ class PointReturn {
   double lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const Seen& seen) const;
   void put(const RayGround& ground, std::size_t sample, double power);
   void spread(const RayGround& ground, const Echo& echo, double extent_m, double power);
-  void smear_into(std::span<float> power);
+  // Adds the power that is put so far to the samples. `steady`: null, or where it is listed, too.
+  void smear_into(std::span<float> power, std::vector<physics::SteadyPower>* steady);
 
   physics::GeometryParameters parameters_;
   radar::BeamPattern beam_;
@@ -154,6 +158,7 @@ class PointReturn {
   // Power by sample before the smear, and after it; 0 between the sweeps. All that is not 0 lies in [first_, end_).
   std::vector<double> points_, smeared_;
   std::size_t first_ = 0, end_ = 0;
+  std::vector<physics::SteadyPower> steady_;
 };
 
 }  // namespace yars::model::rbm

@@ -26,7 +26,8 @@ Reference::Reference(const physics::RadarParameters& parameters)
       bins_(kBinsOfCell * samples_.size()),
       slant_m_(bins_.size()),
       moved_bins_(bins_.size()),
-      distance_m_(samples_.size()) {
+      distance_m_(samples_.size()),
+      steady_(samples_.size()) {
   weights_.reserve((2 * samples_.size() + 1) * kBinsOfCell);  // for any range scale
 }
 
@@ -303,19 +304,24 @@ void Reference::form_video(const physics::PowerWindow& window, geo::Length range
   const double spacing_m = range.metres() / static_cast<double>(video.size());
   const physics::SpeckleCells cells = physics::speckle_cells(spacing_m, receiver.pulse_length_m, state);
   const double gain_db = (gain - physics::kFullGain) * receiver.gain_step_db + window.automatic_gain_db;
+  constexpr std::array<double, 3> kOneSweep{0.0, 1.0, 0.0};
+  const std::array<double, 3>& weights = fidelity_.azimuth_smear ? physics::kAzimuthWeights : kOneSweep;
+  std::fill(steady_.begin(), steady_.end(), 0.0);
+  for (std::size_t sweep = 0; sweep < weights.size(); ++sweep)
+    for (const physics::SteadyPower& part : window.steady[sweep])
+      steady_[part.at] += weights[sweep] * static_cast<double>(part.power);
   for (std::size_t i = 0; i < video.size(); ++i) {
-    double power = static_cast<double>(window.centre[i]);
-    if (fidelity_.azimuth_smear) {
-      power = physics::kAzimuthWeights[0] * static_cast<double>(window.before[i]) +
-              physics::kAzimuthWeights[1] * power + physics::kAzimuthWeights[2] * static_cast<double>(window.after[i]);
-    }
+    const double power = weights[0] * static_cast<double>(window.before[i]) +
+                         weights[1] * static_cast<double>(window.centre[i]) +
+                         weights[2] * static_cast<double>(window.after[i]);
     // Clutter, thermal noise and jamming add as voltages of random phase. So their mean powers add, and one speckle
     // applies to the sum. Sensitivity time control acts on all of them, by the time of arrival.
     const double range_m = (static_cast<double>(i) + 0.5) * spacing_m;
     double total = power + physics::time_control(receiver, range_m) * (receiver.noise + window.jamming);
     if (fidelity_.noise) {
       const std::uint32_t bits = physics::noise_bits(state, physics::cell_of(static_cast<std::uint32_t>(i), cells));
-      total *= static_cast<double>(physics::speckle_levels(window.looks)[bits >> (32U - physics::kSpeckleBits)]);
+      const float speckle = physics::speckle_levels(window.looks)[bits >> (32U - physics::kSpeckleBits)];
+      total *= static_cast<double>(physics::with_steady(speckle, steady_[i] / total));
     }
     const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.dynamic_range_db;
     video[i] = static_cast<std::uint8_t>(std::lround(std::clamp(255.0 * level, 0.0, 255.0)));

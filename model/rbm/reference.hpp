@@ -101,6 +101,7 @@ class Reference : public Algorithm {
   std::vector<double> slant_m_, moved_bins_;
   std::vector<double> weights_;  // of the pulse smear
   std::vector<double> distance_m_;
+  std::vector<double> steady_;  // power of point targets by sample of the video
 };
 
 }  // namespace yars::model::rbm

@@ -58,7 +58,8 @@ Standard::Standard(const physics::RadarParameters& parameters)
       power_(count_, 0.0F),
       power_per_gamma_(count_, 0.0F),
       variate_(count_, 1.0F),
-      time_control_(count_, 1.0F) {}
+      time_control_(count_, 1.0F),
+      steady_(count_, 0.0F) {}
 
 void Standard::use_weather(const physics::RadarParameters& parameters) {
   ground_.use_sea(parameters);
@@ -254,6 +255,24 @@ const float* Standard::time_control(const physics::Receiver& receiver) {
   return time_control_.data();
 }
 
+// Makes the speckle of samples with point targets weaker. Each sample is changed once, with the sum of its targets.
+void Standard::hold_steady(const physics::PowerWindow& window, const physics::simd::VideoInputs& inputs) {
+  const auto for_each = [&](const auto& use) {
+    for (std::size_t sweep = 0; sweep < window.steady.size(); ++sweep)
+      for (const physics::SteadyPower& part : window.steady[sweep]) use(part.at, inputs.weights[sweep] * part.power);
+  };
+  float* const steady = steady_.data();
+  for_each([&](std::uint32_t at, float power) { steady[at] += power; });
+  for_each([&](std::uint32_t at, float /*power*/) {
+    if (!(steady[at] > 0.0F)) return;
+    const float received = inputs.time_control == nullptr ? inputs.noise : inputs.noise * inputs.time_control[at];
+    const float total = inputs.weights[0] * inputs.before[at] + inputs.weights[1] * inputs.centre[at] +
+                        inputs.weights[2] * inputs.after[at] + received;
+    variate_.data()[at] = physics::with_steady(variate_.data()[at], static_cast<double>(steady[at] / total));
+    steady[at] = 0.0F;
+  });
+}
+
 void Standard::form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                           std::span<std::uint8_t> video) {
   const physics::Receiver& receiver = receiver_at(range);
@@ -280,6 +299,7 @@ void Standard::form_video(const physics::PowerWindow& window, geo::Length range,
         physics::speckle_cells(range.metres() / static_cast<double>(count), receiver.pulse_length_m, state),
         variate_.data());
     inputs.variate = variate_.data();
+    hold_steady(window, inputs);
   }
   physics::simd::form_video(count, inputs, video.data());
 }

@@ -63,6 +63,7 @@ class Standard : public Algorithm {
 
   const physics::Receiver& receiver_at(geo::Length range);
   const float* time_control(const physics::Receiver& receiver);
+  void hold_steady(const physics::PowerWindow& window, const physics::simd::VideoInputs& inputs);
 
   radar::Fidelity fidelity_;
   physics::GeometryParameters geometry_parameters_;
@@ -91,6 +92,7 @@ class Standard : public Algorithm {
   Padded elevation_, water_, peak_, near_, near_back_, crest_;
   Padded tangent_, near_tangent_, before_, horizon_;
   Padded power_, power_per_gamma_, variate_, time_control_;
+  Padded steady_;  // power of point targets; 0 outside hold_steady()
 };
 
 }  // namespace yars::model::rbm

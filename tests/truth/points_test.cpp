@@ -11,6 +11,7 @@
 #include "model/physics/environment.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/target_echo.hpp"
+#include "model/rbm/beam.hpp"
 #include "model/rbm/emitters.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/physics/decibels.hpp"
@@ -173,6 +174,63 @@ TEST(Truth, AFluctuatingTargetHasSwerlingsQuantiles) {
     expect_row({"Targets", one.name + ", mean over the steady target", 1.0, 0.02, "", one.law + source,
                 "chance: 100,000 scans"},
                sum / kScans / steady);
+  }
+}
+
+// The sample of a steady target on land in the middle of a sweep.
+struct Shown {
+  std::size_t at;
+  double steady, total;  // power
+  double variation;      // variance / mean^2 of 4,000 videos, one look
+};
+
+Shown shown_target(double cross_section_m2) {
+  constexpr double kRange_db = 120.0;  // black to white
+  radar::RadarConfiguration configuration = plain();
+  configuration.fidelity.noise = true;
+  configuration.fidelity.samples = 480;
+  configuration.receiver.looks = 1;
+  configuration.receiver.noise_floor_db = -200.0;
+  configuration.receiver.dynamic_range_db = kRange_db;
+  configuration.world.land.texture = 0.0;
+  configuration.world.movers.push_back({.position = north(30e3),
+                                        .cross_section_m2 = cross_section_m2,
+                                        .height_m = 2.0,
+                                        .echo = radar::TargetEcho::steady});
+  model::rbm::Beam beam(configuration);
+  const model::terrain::AnalyticTerrain land(model::terrain::flat(1.0));
+  std::vector<float> power(480);
+  beam.measure(ahead(), land, power);
+  const auto steady = beam.steady();
+  if (steady.empty()) return {};
+  const physics::SteadyPower target = *std::ranges::max_element(steady, {}, &physics::SteadyPower::power);
+  physics::PowerWindow window{power, power, power};
+  window.steady = {steady, steady, steady};
+  std::vector<std::uint8_t> video(power.size());
+  constexpr std::uint32_t kVideos = 4000;
+  double sum = 0.0, squares = 0.0;
+  for (std::uint32_t sweep = 0; sweep < kVideos; ++sweep) {
+    beam.form_video(window, ahead().range, physics::kFullGain, {1, 1, sweep}, video);
+    const double shown = physics::ratio(kRange_db * (video[target.at] / 255.0 - 1.0));
+    sum += shown;
+    squares += shown * shown;
+  }
+  return {target.at, static_cast<double>(target.power), static_cast<double>(power[target.at]),
+          squares * kVideos / (sum * sum) - 1.0};
+}
+
+// Land fluctuates from look to look, the target does not.
+TEST(Truth, ATargetOnLandFluctuatesByItsShareOfThePower) {
+  const Shown one = shown_target(1.0);
+  ASSERT_GT(one.steady, 0.0);
+  const double land = one.total - one.steady;
+  for (const double share : {0.5, 0.95}) {
+    const Shown found = shown_target(share / (1.0 - share) * land / one.steady);
+    expect_row({"Targets",
+                "variance/mean² of a sample with a steady target of " +
+                    std::to_string(static_cast<int>(100.0 * share)) + " % of its power, one look",
+                1.0 - share * share, 0.05, "", "a constant in Gaussian noise: Rice 1945", "chance: 4,000 sweeps"},
+               found.variation);
   }
 }
 

@@ -75,6 +75,29 @@ Moments maps(int looks) {
   return db;
 }
 
+// Variance / mean^2 of the video of maps with point targets of a share of each pixel's power.
+double map_variation(int looks, double share) {
+  radar::HighResolutionConfiguration configuration;
+  configuration.dynamic_range_db = kDynamicRange_db;
+  configuration.brightest_gamma_db = -kMean_db;
+  model::hrm::MapImage image(radar::kMapCells);
+  image.power.assign(image.power.size(), 1.0F);
+  for (std::uint32_t pixel = 0; pixel < image.power.size(); ++pixel)
+    image.steady.push_back({pixel, static_cast<float>(share)});
+  std::vector<std::uint8_t> picture(image.power.size());
+  model::hrm::form_video(configuration, image, {.looks = looks}, 0, image.size, picture);
+  Moments power;
+  for (const std::uint8_t level : picture) power.add(physics::ratio(kDynamicRange_db * (level / 255.0 - 1.0)));
+  return power.deviation() * power.deviation() / (power.mean() * power.mean());
+}
+
+TEST(Truth, ATargetOnAMapFluctuatesByItsShareOfThePower) {
+  constexpr double kShare = 0.8;
+  expect_row({"Targets", "variance/mean² of a map's pixel with a steady target of 80 % of its power, 2 looks",
+              0.5 * (1.0 - kShare * kShare), 0.01, "", "a constant in Gaussian noise: Rice 1945", "8 bits"},
+             map_variation(2, kShare));
+}
+
 std::string looks_of(int looks) {
   return std::to_string(looks) + (looks == 1 ? " look" : " looks");
 }
