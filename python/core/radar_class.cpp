@@ -100,8 +100,8 @@ void set_field(Value& field, const py::handle& value) {
     field = py::cast<Value>(value);
 }
 
-// Class of a request, whose constructor takes a dict, and the list of its fields: (name, older keyword, kind, whether
-// it may be None, least, greatest).
+// Class of a request, whose constructor takes a dict, and the list of its fields: (name, kind, whether it may be
+// None, least, greatest).
 template <class Request>
 void add_request(py::module_& module, const char* name) {
   py::class_<Request>(module, name).def(py::init([](const py::dict& given) {
@@ -115,11 +115,9 @@ void add_request(py::module_& module, const char* name) {
   py::list fields;
   Request request;
   values::visit_fields(request, [&](const values::Field& field, auto& value) {
-    std::string keyword(field.option);
-    std::ranges::replace(keyword, '-', '_');
     using Value = std::remove_reference_t<decltype(value)>;
-    fields.append(py::make_tuple(std::string(field.name), keyword, kind_of<Value>(field), !field.otherwise.empty(),
-                                 field.low, field.high));
+    fields.append(py::make_tuple(std::string(field.name), kind_of<Value>(field), !field.otherwise.empty(), field.low,
+                                 field.high));
   });
   module.attr((std::string(name) + "_fields").c_str()) = fields;
 }

@@ -15,7 +15,7 @@ import importlib.util
 import pathlib
 import platform
 
-__version__ = "0.4.0"
+__version__ = "0.5.0"
 
 # Module of the package -> its names that are names of the package. Typed in __init__.pyi.
 _NAMES = {

@@ -7,7 +7,6 @@ import difflib
 import math
 import numbers
 import os
-import warnings
 
 from . import Error
 
@@ -108,42 +107,31 @@ def whole(where, value, low, high, optional=False):
 
 class Request:
     """Keyword arguments of a function that are the fields of a request (requests.idl).
-    An older keyword gives a warning.
 
     kind: the compiled class. rows: its fields, as the compiled part lists them. others: arguments that are no fields.
     """
 
     def __init__(self, function, kind, rows, others=()):
         self.function, self.kind, self.others = function, kind, others
-        self.rows = {row[0]: row[2:] for row in rows}
-        self.older = {row[1]: row[0] for row in rows if row[1] != row[0]}
+        self.rows = {row[0]: row[1:] for row in rows}
 
     def of(self, given):
         """The request with the arguments given."""
-        fields, keys = {}, {}
-        for key, value in given.items():
-            name = key if key in self.rows else self._renamed(key)
-            if name in keys:
-                older = key if key != name else keys[name]
-                raise TypeError(f"{self.function}: expected {name} once, found it twice: "
-                                f"{older} is an older word for it")
-            keys[name] = key
+        fields = {}
+        for name, value in given.items():
+            if name not in self.rows:
+                self._refuse(name)
             kind, optional, low, high = self.rows[name]
             value = plain(value)
             if value is not None or not (optional or kind == "truth value"):
-                fields[name] = self._checked(f"{self.function}: {key}", kind, value, low, high)
+                fields[name] = self._checked(f"{self.function}: {name}", kind, value, low, high)
         return self.kind(fields)
 
-    def _renamed(self, key):
-        name = self.older.get(key)
-        if name is None:
-            near = difflib.get_close_matches(key, [*self.rows, *self.older, *self.others], 1)
-            raise ValueError(f"{self.function}: expected arguments of {', '.join([*self.rows, *self.others])}, "
-                             f"found {ascii(key)[:_LONGEST]}"
-                             + (f"; did you mean {near[0]}?" if near else f"; see help({self.function})"))
-        warnings.warn(f"{self.function}: {key} is an older word for {name}, and goes with the next version",
-                      DeprecationWarning, stacklevel=4)
-        return name
+    def _refuse(self, name):
+        known = [*self.rows, *self.others]
+        near = difflib.get_close_matches(name, known, 1) or [word for word in known if word.startswith(name)]
+        raise ValueError(f"{self.function}: expected arguments of {', '.join(known)}, found {ascii(name)[:_LONGEST]}"
+                         + (f"; did you mean {near[0]}?" if near else f"; see help({self.function})"))
 
     @staticmethod
     def _checked(where, kind, value, low, high):

@@ -198,7 +198,7 @@ class Patch(_Picture):
 
 _SCAN = Request("yars.Radar.scan", _core.ScanRequest, _core.ScanRequest_fields)
 _PATCH = Request("yars.Radar.patch", _core.PatchRequest, _core.PatchRequest_fields)
-_THREADS = next([int(end) for end in field[4:]] for field in _core.PatchRequest_fields if field[0] == "threads")
+_THREADS = next([int(end) for end in field[3:]] for field in _core.PatchRequest_fields if field[0] == "threads")
 _TRADES = [Request("yars.trade", *of, ("csv", "out"))
            for of in ((_core.ScanTradeRequest, _core.ScanTradeRequest_fields),
                       (_core.MapTradeRequest, _core.MapTradeRequest_fields))]

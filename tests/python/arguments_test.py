@@ -171,10 +171,7 @@ class Arguments(Folder):
             with self.assertRaises(ValueError) as caught:
                 call()
             self.assertEqual((caught.exception.field, caught.exception.high), (field, high))
-        with self.assertWarnsRegex(DeprecationWarning, "scan_width is an older word for width_deg"):
-            self.refused(ValueError, "width_deg: expected 1 to 120 deg", lambda: yars.trade(scan_width=121))
-        for both in ({"scan_width": 40, "width_deg": 40}, {"width_deg": 40, "scan_width": 40}):
-            self.refused(TypeError, "found it twice: scan_width is an older word", lambda both=both: yars.trade(**both))
+        self.refused(ValueError, "width_deg: expected 1 to 120 deg", lambda: yars.trade(width_deg=121))
         self.refused(TypeError, "knob: expected a text", lambda: yars.trade(knob=3))
 
     def test_faults_of_guf_are_structures(self):

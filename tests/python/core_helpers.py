@@ -27,13 +27,14 @@ PATCH = {"latitude_deg": 37.5, "longitude_deg": -122.5, "altitude_ft": 12000, "h
          "target_latitude_deg": 37.62, "target_longitude_deg": -122.4, "window_nm": 1.3, "seed": 3}
 
 
-KEYWORDS = {name: keyword for rows in (yars.Radar.scan.__globals__["_SCAN"], yars.Radar.scan.__globals__["_PATCH"])
-            for keyword, name in rows.older.items()}
+OPTIONS = {"latitude_deg": "lat", "longitude_deg": "lon", "altitude_ft": "alt-ft", "heading_deg": "heading",
+           "width_deg": "scan-width", "elevation_deg": "elevation", "target_latitude_deg": "target-lat",
+           "target_longitude_deg": "target-lon"}
 
 
 def option(name):
     """The option of a field of a request."""
-    return "--" + KEYWORDS.get(name, name).replace("_", "-")
+    return "--" + OPTIONS.get(name, name.replace("_", "-"))
 
 
 def options(arguments):

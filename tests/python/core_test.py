@@ -12,7 +12,7 @@ import re
 import unittest
 import warnings
 
-from core_helpers import KEYWORDS, PATCH, SCAN, Folder, command, np, option, options, yars
+from core_helpers import OPTIONS, PATCH, SCAN, Folder, command, np, option, options, yars
 from yars.dataset.keys import PRESETS
 
 # Array -> type, unit; of scans and maps.
@@ -219,7 +219,7 @@ class Commands(Folder):
                                    lambda found: option(found[1]) + ("" if found[2] == "True" else f" {found[2]}"),
                                    text)
                     words = re.sub(r"\b(\w+)\b",
-                                   lambda found: option(found[1]) if found[1] in KEYWORDS or found[1] == "window_nm"
+                                   lambda found: option(found[1]) if found[1] in OPTIONS or found[1] == "window_nm"
                                    else found[1], words)
                     self.assertEqual(words.partition(": ")[2], said.partition(": ")[2])
                 elif getattr(caught.exception, "code", "") == "range":
@@ -228,15 +228,6 @@ class Commands(Folder):
                     self.assertIn(option(field), said)
                 else:  # refused before the call
                     self.assertIn(field, text)
-
-    def test_older_words_give_a_warning(self):
-        terrain, radar = yars.Terrain(), yars.Radar("draft")
-        with self.assertWarnsRegex(DeprecationWarning, "lat is an older word for latitude_deg"):
-            old = radar.scan(terrain, lat=37.8, lon=-122.5, alt_ft=15000, heading=30, range_nm=10, seed=7)
-        self.assertEqual(old.hash, radar.scan(terrain, **SCAN).hash)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            self.refused(TypeError, "expected latitude_deg once", lambda: radar.scan(terrain, latitude_deg=37, lat=37))
 
 
 class Trades(Folder):
