@@ -17,7 +17,7 @@ INSTANTIATE_TEST_SUITE_P(Presets, EveryAlgorithm, ::testing::Values("standard", 
 TEST_P(EveryAlgorithm, FormsAMapIndependentOfEarlierAndAbandonedMaps) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(GetParam());
-  configuration.fidelity.map_size = 64;
+  configuration.fidelity.map_size = configuration.fidelity.algorithm == radar::Algorithm::reference ? 32 : 64;
   const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
   scene->add({});
   const auto ground = ground_of(model::terrain::flat(kGround_m));

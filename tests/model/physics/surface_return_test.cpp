@@ -81,11 +81,11 @@ Moments k_clutter(double shape, int looks) {
   Reference untextured(configuration);
   std::vector<float> power(250), mean(250);
   std::vector<std::uint8_t> video(250);
+  untextured.measure(geometry, plain, mean);  // the same at every longitude
   double sum = 0.0, squares = 0.0, count = 0.0;
   for (std::uint32_t sweep = 0; sweep < 1000; ++sweep) {
     geometry.apex.longitude_deg = 0.36 * sweep - 180.0;  // different ground for each sweep
     textured.measure(geometry, plain, power);
-    untextured.measure(geometry, plain, mean);
     textured.form_video({power, power, power, 0.0, 0.0, looks}, geometry.range, 0, {5, 1, sweep}, video);
     for (std::size_t i = 25; i < 250; ++i) {
       const double relative = std::pow(10.0, 12.0 * (video[i] / 255.0 - 1.0) + 3.0) / static_cast<double>(mean[i]);

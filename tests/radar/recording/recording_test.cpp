@@ -107,7 +107,8 @@ TEST(Recording, AnyChangedByteLosesAtMostItsBlock) {
   const auto items = items_of_every_kind(24, 25);
   const std::string whole = recorded(items);
   const auto ends = block_ends(whole);
-  for (std::size_t at = 0; at < whole.size(); ++at) {
+  const std::size_t step = std::getenv("YARS_TEST_FULL") != nullptr ? 1 : 5;  // 5: bytes with every kind of change
+  for (std::size_t at = 0; at < whole.size(); at += step) {
     const unsigned flip = at % 3 == 0 ? 0xffU : 1U << at % 8;
     SCOPED_TRACE(std::to_string(at) + " by " + std::to_string(flip));
     std::string changed = whole;

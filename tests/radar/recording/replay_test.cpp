@@ -211,10 +211,10 @@ TEST(Replay, ComputesSweepsWithSubBeamsInFlightWhereverTheRecordingBegins) {
     Recorded recorded(nullptr, nullptr, configuration);
     recorded.fly();
     recorded.run_before_the_recorder(before);
-    recorded.run(300);
+    recorded.run(200);
     recorded.restart();
-    recorded.run(300);
-    EXPECT_GT(recorded.comparison().equal(), 450U);
+    recorded.run(200);
+    EXPECT_GT(recorded.comparison().equal(), 300U);
     EXPECT_EQ(recorded.comparison().different(), 0U);
     EXPECT_LE(recorded.comparison().missing(), 17U);
   }

@@ -5,7 +5,9 @@
 #include <ogr_srs_api.h>
 
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "lib/geo/quantity.hpp"
 #include "model/terrain/gdal/raster.hpp"
@@ -102,10 +104,13 @@ class RasterOfDatum : public ::testing::TestWithParam<Datum> {
 
   // Position that the rasters encode at a WGS84 position. Their heights rise by 30,000 m per degree, to the north in
   // one raster and to the east in the other.
-  Place read_place(const std::filesystem::path& north, const std::filesystem::path& east, Place position) const {
+  Place read_place(const std::filesystem::path& north, const std::filesystem::path& east, Place position) {
     const CellCorner corner = cell_containing({position.latitude_deg, position.longitude_deg});
     const auto height_m = [&](const std::filesystem::path& path) {
-      const auto reading = read_cell({path, CellFormat::raster}, corner);
+      const auto key = std::pair(path, slot_of(corner));
+      auto found = read_.find(key);
+      if (found == read_.end()) found = read_.emplace(key, read_cell({path, CellFormat::raster}, corner)).first;
+      const auto& reading = found->second;
       EXPECT_TRUE(reading.has_value()) << reading.error().message();
       return reading ? interpolate(reading->cell, position.latitude_deg - corner.south_deg,
                                    position.longitude_deg - corner.west_deg)
@@ -116,6 +121,9 @@ class RasterOfDatum : public ::testing::TestWithParam<Datum> {
     return {about.latitude_deg + (height_m(north) - 4000) / 30'000,
             about.longitude_deg + (height_m(east) - 4000) / 30'000};
   }
+
+ private:
+  std::map<std::pair<std::filesystem::path, std::size_t>, decltype(read_cell({}, {}))> read_;  // cells, read once
 };
 
 TEST_P(RasterOfDatum, HasItsHeightsAtTheWgs84PositionsOfProj) {

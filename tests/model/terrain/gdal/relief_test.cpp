@@ -185,10 +185,10 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Projected{"Utm", "EPSG:32611", 225'000, 4'110'000, 232, 560, {36, -119}},
                       Projected{"UtmRim", "EPSG:32611", 260'000, 4'060'000, 232, 200, {36, -120}},
                       Projected{"PolarStereographic", "EPSG:3413", 100'000, -400'000, 500, 700, {84, -28}},
-                      Projected{"RoundThePole", "EPSG:3413", -150'000, 150'000, 1000, 300, {89, 17}},
-                      Projected{"SouthPole", "EPSG:3031", -150'000, 150'000, 1000, 300, {-90, -180}},
+                      Projected{"RoundThePole", "EPSG:3413", -75'000, 75'000, 1000, 150, {89, 17}},
+                      Projected{"SouthPole", "EPSG:3031", -75'000, 75'000, 1000, 150, {-90, -180}},
                       Projected{"Antimeridian", "EPSG:32660", 600'000, 7'300'000, 300, 500, {65, 179}},
-                      Projected{"AzimuthalEqualArea", "EPSG:3035", 4'000'000, 2'900'000, 400, 500, {48, 8}}),
+                      Projected{"AzimuthalEqualArea", "EPSG:3035", 4'060'000, 2'900'000, 400, 350, {48, 8}}),
     [](const auto& each) { return std::string(each.param.name); });
 
 // A thread keeps what PROJ has found for the raster that it opened last.
