@@ -124,6 +124,8 @@ TEST(ExtremeAttitudes, WithTheNoseStraightUpOrDownAScanAtSixtyDegreesThereIsNotB
 TEST(ExtremeAttitudes, UpsideDownTheSweepsEqualThoseOfLevelFlightBitForBit) {
   // The antenna is stabilized in space, and the gimbal limits are symmetric.
   test::for_each_algorithm_and_beam(64, [&](const radar::RadarConfiguration& configuration) {
+    const bool slow = configuration.fidelity.algorithm == radar::Algorithm::reference;
+    if (slow && configuration.fidelity.beam != radar::BeamPattern::mapping) return;
     const auto level = scan_of(configuration, 0.0, 0.0, -4.0);
     for (const double roll_deg : {180.0, -180.0}) {
       const auto rolled = scan_of(configuration, 0.0, roll_deg, -4.0);

@@ -304,8 +304,8 @@ const tests = {
   async "a recording is made, played, scrubbed, and flown out of"(page) {
     await page.click("#record:text-is('Record')");
     await until("the recorder writes", () => status().recorder?.writing);
-    const end = watch().sim_time + 6;
-    await until("six seconds of it", () => watch().sim_time >= end);
+    const end = watch().sim_time + 4;
+    await until("four seconds of it", () => watch().sim_time >= end);
     await page.click("#record:text-is('Pause recording')");
     await until("the recorder stands", () => status().recorder?.writing === false);
     await page.click("#machine summary");
@@ -319,7 +319,7 @@ const tests = {
     await until("it plays", async () => await page.textContent("#play") === "Pause");
     await page.click("#play");
     await until("the replay stands", async () => await page.textContent("#play") === "Go on");
-    const at = Math.round((end - 3) * 10) / 10;
+    const at = Math.round((end - 2) * 10) / 10;
     const frame = await page.getAttribute("#replay_picture", "data-frame");
     assert.equal(await page.locator("#machine input[type=range]").count(), 1, "one slider");
     await page.$eval("#at", (scrub, value) => {
@@ -413,7 +413,8 @@ const tests = {
     call("world", "jammer", "add", String(lat), String(lon - 0.01), "--name", "SA-X");
     const page = await open(1400, 1000, path, recordDrawings);
     await onMap(page, "crowded ship 5");
-    await until("a drawing with labels", async () => (await page.evaluate(() => globalThis.drawing.texts.length)) > 3);
+    await until("a drawing of the crowd", async () =>
+      (await page.evaluate(() => globalThis.drawing.symbols.length)) > 3);
     const overlaps = () => page.evaluate(() => {
       const { symbols, texts } = globalThis.drawing;
       const meet = (one, other) => one[0] < other[2] && other[0] < one[2] && one[1] < other[3] && other[1] < one[3];
@@ -429,7 +430,7 @@ const tests = {
       await twoStates(page);
       assert.deepEqual(await overlaps(), [], `nearer: ${turn}`);
     }
-    assert.ok(await page.evaluate(() => globalThis.drawing.symbols.length > 3 &&
+    assert.ok(await page.evaluate(() => globalThis.drawing.symbols.length > 3 && globalThis.drawing.texts.length > 3 &&
       globalThis.drawing.texts.some(({ text }) => text === "SA-X")));
     const rows = await page.$$eval("#things li", (list) => list.map((row) =>
       [...row.querySelectorAll("button")].map((button) => {

@@ -241,8 +241,8 @@ TEST(ShadowBound, HoldsNearTheNorthPole) {
 
 TEST(ShadowBound, HoldsNearTheSouthPole) {
   const auto cap = polar_cap({-90});
-  expect_polar_bounds(cap, {{-89.5, 179.9}, 12000.0, 60.0, 300.0, 40.0}, {40.0});
-  expect_polar_bounds(cap, {{-90.0, 0.0}, 12000.0, 0.0, 350.0, 70.0}, {40.0});
+  expect_polar_bounds(cap, {{-89.5, 179.9}, 12000.0, 60.0, 300.0, 80.0}, {40.0});
+  expect_polar_bounds(cap, {{-90.0, 0.0}, 12000.0, 0.0, 350.0, 115.0}, {40.0});
 }
 
 TEST(ShadowBound, HoldsOverRealMountains) {
