@@ -59,9 +59,9 @@ bool is_beacon(const SweepChain::Labels& labels) {
 }  // namespace
 
 SweepChain::SweepChain(const physics::RadarParameters& parameters)
-    : seed_(parameters.seed),
+    : beam_(parameters),
+      seed_(parameters.seed),
       samples_(rbm::sample_count(parameters)),
-      beam_(parameters),
       strobes_(parameters),
       beacons_(parameters) {
   for (Measured& measured : measured_) {

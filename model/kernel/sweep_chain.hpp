@@ -111,9 +111,9 @@ class SweepChain {
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
   Measured& newest(std::size_t age) { return measured_[(next_ + measured_.size() - 1 - age) % measured_.size()]; }
 
+  rbm::Beam beam_;
   std::uint64_t seed_;
   std::size_t samples_;
-  rbm::Beam beam_;
   rbm::Strobes strobes_;
   rbm::Beacons beacons_;
   std::array<Measured, 3> measured_;

@@ -39,6 +39,7 @@ Beam::Beam(std::unique_ptr<Algorithm> algorithm, const physics::RadarParameters&
   beam_.reserve(rays_.size());
   weighted_.reserve(rays_.size());
   grounds_.reserve(rays_.size());
+  steady_.reserve(sample_count(parameters));
 }
 
 void Beam::use_world(const physics::RadarParameters& parameters, const radar::WorldChanges& changes) {
@@ -153,8 +154,8 @@ std::size_t Beam::measure(const physics::SweepGeometry& geometry, const physics:
     if (with_points) algorithm_->describe(ground);
     grounds_.push_back(&ground);
   }
-  if (with_points) points_->add(geometry, environment, grounds_, power);
-  steady_ = with_points ? points_->steady() : std::span<const physics::SteadyPower>();
+  steady_.clear();
+  if (with_points) points_->add(geometry, environment, grounds_, power, steady_);
   return pending;
 }
 

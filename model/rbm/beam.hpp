@@ -102,14 +102,14 @@ class Beam {
   physics::Receivers receivers_;
   physics::Receiver receiver_;  // of the last selected range
   radar::BeamPattern pattern_;
+  int circle_;  // number of rays around the horizon
   double beamwidth_deg_;
   std::vector<Ray> rays_;     // kept; one if there are no sub-beams
   std::vector<Member> beam_;  // from left to right
   std::vector<simd::WeightedRay> weighted_;
   std::vector<const RayGround*> grounds_;  // of beam_
-  std::span<const physics::SteadyPower> steady_;
+  std::vector<physics::SteadyPower> steady_;
   std::size_t measured_ = 0;
-  int circle_;  // number of rays around the horizon
 };
 
 // Makes the algorithm that the fidelity names.

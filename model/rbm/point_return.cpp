@@ -43,7 +43,6 @@ PointReturn::PointReturn(const physics::RadarParameters& parameters)
       smeared_(parameters.samples),
       first_(parameters.samples) {
   rays_.reserve(radar::kMaxSubBeams + 2);
-  steady_.reserve(parameters.samples);
 }
 
 void PointReturn::use_movers(const physics::RadarParameters& parameters) {
@@ -62,7 +61,8 @@ bool PointReturn::may_return(const physics::SweepGeometry& geometry, const physi
 }
 
 void PointReturn::add(const physics::SweepGeometry& geometry, const physics::Environment& environment,
-                      std::span<const RayGround* const> rays, std::span<float> power) {
+                      std::span<const RayGround* const> rays, std::span<float> power,
+                      std::vector<physics::SteadyPower>& steady) {
   if (receiver_.range_m != geometry.range.metres()) receiver_ = receivers_.at(geometry.range);
   const double spacing_m = geometry.range.metres() / static_cast<double>(points_.size());
   const double pulse_samples = pulse_smear_ ? receiver_.pulse_length_m / spacing_m : 0.0;
@@ -71,7 +71,6 @@ void PointReturn::add(const physics::SweepGeometry& geometry, const physics::Env
     smear_ = physics::make_pulse_smear(pulse_samples);
   }
   set_rays(geometry, rays);
-  steady_.clear();
   const Sweep sweep{geometry,
                     environment,
                     receiver_,
@@ -80,7 +79,7 @@ void PointReturn::add(const physics::SweepGeometry& geometry, const physics::Env
                     wrapped_rad(geometry.azimuth.radians()),
                     fast_ ? kNegligible * receiver_.noise : 0.0};
   add_movers(sweep);
-  smear_into(power, &steady_);
+  smear_into(power, &steady);
   if (environment.scenes != nullptr) add_scenes(sweep, *environment.scenes);
   smear_into(power, nullptr);
 }

@@ -42,12 +42,11 @@ class PointReturn {
   // False if there is no mover, and no scene within the range. Then add() changes nothing.
   bool may_return(const physics::SweepGeometry& geometry, const physics::Environment& environment) const;
 
-  // Adds the power of the targets in the beam to `power`. steady() has the part of movers and traffic until the next
-  // call. `rays`: ground of the beam's rays from left to right, at
-  // equal steps of azimuth. They may have been measured shortly before the sweep, from another position.
+  // Adds the power of the targets in the beam to `power`, and lists the part of movers and traffic in `steady`. `rays`:
+  // ground of the beam's rays from left to right, at equal steps of azimuth. They may have been measured shortly before
+  // the sweep, from another position.
   void add(const physics::SweepGeometry& geometry, const physics::Environment& environment,
-           std::span<const RayGround* const> rays, std::span<float> power);
-  std::span<const physics::SteadyPower> steady() const { return steady_; }
+           std::span<const RayGround* const> rays, std::span<float> power, std::vector<physics::SteadyPower>& steady);
 
  private:
   // A scatterer as seen from one apex. It does not depend on the beam's azimuth, so the sweeps of a scan share it.
@@ -158,7 +157,6 @@ class PointReturn {
   // Power by sample before the smear, and after it; 0 between the sweeps. All that is not 0 lies in [first_, end_).
   std::vector<double> points_, smeared_;
   std::size_t first_ = 0, end_ = 0;
-  std::vector<physics::SteadyPower> steady_;
 };
 
 }  // namespace yars::model::rbm
