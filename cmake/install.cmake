@@ -5,7 +5,8 @@ set(share ${CMAKE_INSTALL_DATADIR}/yars)
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${share}/config
-  FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script" PATTERN "*.scenes" PATTERN "*.tour")
+  FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script" PATTERN "*.scenes" PATTERN "*.tour"
+  PATTERN "*.csv")
 # Structures of the topics, for programs of others that join by DDS: docs/network.md.
 # A component of its own: the build makes one.
 install(FILES ${PROJECT_SOURCE_DIR}/gateway/yars_network.idl ${PROJECT_BINARY_DIR}/generated/gateway/yars_records.idl

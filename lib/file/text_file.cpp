@@ -49,7 +49,7 @@ fs::path installed_folder(std::string_view name) {
 std::string installed_file(const std::string& name, const fs::path& folder) {
   std::error_code problem;
   if (name.empty() || folder.empty() || name.find('/') != std::string::npos || fs::exists(name, problem)) return name;
-  for (const char* part : {"", "routes", "scripts"})
+  for (const char* part : {"", "routes", "scripts", "legends"})
     if (const fs::path file = folder / part / name; fs::is_regular_file(file, problem)) return file.string();
   return name;
 }

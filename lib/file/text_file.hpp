@@ -26,7 +26,8 @@ namespace yars::file {
 std::filesystem::path installed_folder(std::string_view name = "config");
 
 // Path of an installed file. A file in the current folder takes precedence. Else a name without a slash is searched in
-// `folder` and its subfolders routes and scripts. A name with a slash, or one found nowhere, is returned unchanged.
+// `folder` and its subfolders routes, scripts and legends. A name with a slash, or one found nowhere, is returned
+// unchanged.
 std::string installed_file(const std::string& name, const std::filesystem::path& folder = installed_folder());
 
 // The text with the letters A to Z in lower case.

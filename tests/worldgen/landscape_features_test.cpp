@@ -181,8 +181,8 @@ TEST(LandscapeCover, NeighboursHaveEqualCoverAndHeightsOnTheirEdge) {
   const MadeCell east = island().make({37, -121}, 121, 121);
   const MadeCell north = island().make({38, -122}, 121, 121);
   for (int post = 0; post < 121; ++post) {
-    ASSERT_EQ(here.culture.code(post, 120), east.culture.code(post, 0));
-    ASSERT_EQ(here.culture.code(120, post), north.culture.code(0, post));
+    ASSERT_EQ(here.culture.post(post, 120).material, east.culture.post(post, 0).material);
+    ASSERT_EQ(here.culture.post(120, post).material, north.culture.post(0, post).material);
     ASSERT_EQ(here.cell.post(post, 120), east.cell.post(post, 0));
     ASSERT_EQ(here.cell.post(120, post), north.cell.post(0, post));
   }
@@ -196,11 +196,11 @@ TEST(LandscapeCover, CellsMeetAtTheAntimeridianAndAtDtedZoneLimits) {
   const MadeCell north = landscape.make({50, 10}, 121, dted_columns({50, 10}, 0));
   ASSERT_EQ(2 * (north.cell.columns() - 1), south.cell.columns() - 1);
   for (int post = 0; post < 121; ++post) {
-    ASSERT_EQ(west.culture.code(post, 120), east.culture.code(post, 0));
+    ASSERT_EQ(west.culture.post(post, 120).material, east.culture.post(post, 0).material);
     ASSERT_EQ(west.cell.post(post, 120), east.cell.post(post, 0));
   }
   for (int post = 0; post < north.cell.columns(); ++post) {
-    ASSERT_EQ(south.culture.code(120, 2 * post), north.culture.code(0, post));
+    ASSERT_EQ(south.culture.post(120, 2 * post).material, north.culture.post(0, post).material);
     ASSERT_EQ(south.cell.post(120, 2 * post), north.cell.post(0, post));
   }
 }
@@ -212,7 +212,7 @@ TEST(LandscapeCover, SeaIsWaterAndAllMaterialsOfLandOccur) {
     const MadeCell made = island().make(corner, 121, 121);
     for (int row = 0; row < 121; ++row)
       for (int column = 0; column < 121; ++column) {
-        const std::uint8_t code = made.culture.code(row, column);
+        const std::uint8_t code = made.culture.post(row, column).material;
         ++counts[code];
         if (made.cell.post(row, column) == 0) {
           ASSERT_EQ(code, static_cast<std::uint8_t>(Material::water));
@@ -289,7 +289,7 @@ TEST(LandscapeRepeats, WithAnyNumberOfThreads) {
   const MadeCell first = one.make({37, -122}, 121, 121, 1);
   const MadeCell second = two.make({37, -122}, 121, 121, 2);
   EXPECT_EQ(first.cell.posts(), second.cell.posts());
-  EXPECT_EQ(first.culture.codes(), second.culture.codes());
+  EXPECT_EQ(first.culture.posts(), second.culture.posts());
 }
 
 TEST(LandscapeRepeats, InAnyOrderOfCells) {

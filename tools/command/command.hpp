@@ -113,6 +113,7 @@ void add_terrain_profile(runtime::Command terrain);
 void add_terrain_dump(runtime::Command terrain);
 void add_terrain_reduce(runtime::Command terrain);
 void add_terrain_convert(runtime::Command terrain);
+void add_terrain_cover(runtime::Command terrain);
 void add_terrain_pack(runtime::Command terrain);
 
 // Subcommands of `yars scene`.

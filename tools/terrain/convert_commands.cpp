@@ -26,6 +26,7 @@
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "tools/command/command.hpp"
+#include "tools/terrain/terrain_folders.hpp"
 
 namespace yars::tools {
 
@@ -140,11 +141,15 @@ error::Expected<void> copy_culture(const TerrainBatch& batch, const CellFile& fi
   return write_culture(to, batch.culture_posts ? thinned(*culture, batch.culture_posts(cell)) : *culture);
 }
 
+}  // namespace
+
 bool lies_in(const std::filesystem::path& inner, const std::filesystem::path& outer) {
   const std::filesystem::path relative =
       std::filesystem::weakly_canonical(inner).lexically_relative(std::filesystem::weakly_canonical(outer));
   return !relative.empty() && *relative.begin() != "..";
 }
+
+namespace {
 
 error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, FileSentences& unused) {
   if (!std::filesystem::is_directory(batch.in)) return index_file(batch.in);
@@ -216,14 +221,14 @@ void print_totals(const BatchTotals& totals, const AllReadingNotes& notes, bool 
   if (totals.scene_files > 0) std::printf("%s copied\n", text::counted(totals.scene_files, "scene file").c_str());
 }
 
-// Copies the scenes that stand on the ground of the input's folder, with the files beside them. Returns the number of
-// copied files. `failed` receives a sentence for each file that is not copied.
-std::size_t copy_scenes(const TerrainBatch& batch, std::vector<std::string>& failed) {
+}  // namespace
+
+std::size_t copy_scenes(const std::string& in, const std::string& out, std::vector<std::string>& failed) {
   namespace fs = std::filesystem;
-  const fs::path from = fs::path(batch.in) / model::scene::kTerrainScenes;
+  const fs::path from = fs::path(in) / model::scene::kTerrainScenes;
   std::error_code code;
   if (!fs::is_directory(from, code)) return 0;
-  const fs::path root = fs::weakly_canonical(batch.in, code);
+  const fs::path root = fs::weakly_canonical(in, code);
   std::size_t copied = 0;
   fs::recursive_directory_iterator entry(from, code);
   for (const fs::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
@@ -237,9 +242,8 @@ std::size_t copy_scenes(const TerrainBatch& batch, std::vector<std::string>& fai
       continue;
     }
     const auto bytes = read_file(path, std::numeric_limits<std::size_t>::max());
-    const auto written =
-        bytes ? file::write_file_and_folders(fs::path(batch.out) / path.lexically_relative(batch.in), *bytes)
-              : tl::unexpected(bytes.error());
+    const auto written = bytes ? file::write_file_and_folders(fs::path(out) / path.lexically_relative(in), *bytes)
+                               : tl::unexpected(bytes.error());
     if (written)
       ++copied;
     else
@@ -248,8 +252,6 @@ std::size_t copy_scenes(const TerrainBatch& batch, std::vector<std::string>& fai
   if (code) failed.push_back(from.string() + ": " + error::reason_of(code.value()));
   return copied;
 }
-
-}  // namespace
 
 void run_terrain_batch(const TerrainBatch& batch) {
   check_folder_name("--out", batch.out);
@@ -278,7 +280,7 @@ void run_terrain_batch(const TerrainBatch& batch) {
     progress.done(written->string() + "  " + megabytes(bytes));
   }
   FileSentences scenes;
-  totals.scene_files = copy_scenes(batch, scenes.problems);
+  totals.scene_files = copy_scenes(batch.in, batch.out, scenes.problems);
   left_out += scenes.problems.size();
   notes.add(std::move(scenes));
   print_totals(totals, notes, batch.json);

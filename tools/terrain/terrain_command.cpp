@@ -23,8 +23,8 @@
 namespace yars::tools {
 
 void add_terrain_command(runtime::Command app, const CommonOptions& /*common*/) {
-  runtime::Command terrain =
-      app.subcommand("terrain", "elevation databases: generate, info, image, profile, dump, reduce, convert, pack");
+  runtime::Command terrain = app.subcommand(
+      "terrain", "elevation databases: generate, info, image, profile, dump, reduce, convert, pack, cover");
   terrain.require_subcommand();
   add_terrain_generate(terrain);
   add_terrain_info(terrain);
@@ -34,6 +34,7 @@ void add_terrain_command(runtime::Command app, const CommonOptions& /*common*/) 
   add_terrain_reduce(terrain);
   add_terrain_convert(terrain);
   add_terrain_pack(terrain);
+  add_terrain_cover(terrain);
 }
 
 // `yars terrain info`: lists the cells of a directory with their posts, heights, voids and problems.

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "lib/error/error.hpp"
@@ -38,23 +39,49 @@ enum class Material : std::uint8_t {
 };
 inline constexpr std::uint8_t kMaxMaterial = 31;
 
-// Surface materials of one cell, one code per post. Rows run from south to north, both edges included. The spacing of
-// posts may differ from the elevation cell's.
+// Name of a code up to 13, "land" for 0; empty for the free codes.
+std::string_view material_name(std::uint8_t code);
+// The code of a name, or of a number up to kMaxMaterial; nullopt for any other text.
+std::optional<std::uint8_t> material_of(std::string_view text);
+
+// What covers a post: a material, and the share of water [0, 1], which is then known whatever the height. nullopt:
+// posts at 0 m are sea, and the material water is water. The rest of the post has the material.
+struct Cover {
+  std::uint8_t material = 0;
+  std::optional<double> water = std::nullopt;
+};
+
+// A cover as one byte of a culture file: the material, and 32 times 1 + six times the share of water (rounded), or 0.
+constexpr std::uint8_t cover_byte(const Cover& cover) {
+  constexpr double kSteps = 6.0;
+  const unsigned share = cover.water ? 1U + static_cast<unsigned>(kSteps * *cover.water + 0.5) : 0U;
+  return static_cast<std::uint8_t>(cover.material | share << 5U);
+}
+constexpr Cover cover_of(std::uint8_t byte) {
+  const unsigned share = byte >> 5U;
+  Cover cover{static_cast<std::uint8_t>(byte & kMaxMaterial)};
+  if (share > 0) cover.water = (share - 1U) / 6.0;
+  return cover;
+}
+
+// Cover of one cell, one byte per post (cover_byte()). Rows run from south to north, both edges included. The spacing
+// of posts may differ from the elevation cell's.
 class Culture {
  public:
-  // Requires rows, columns >= 2 and rows * columns codes. No code may exceed kMaxMaterial.
-  Culture(CellCorner corner, int rows, int columns, std::span<const std::uint8_t> codes);
+  // Requires rows, columns >= 2 and rows * columns bytes.
+  Culture(CellCorner corner, int rows, int columns, std::span<const std::uint8_t> bytes);
 
   int rows() const { return rows_; }
   int columns() const { return columns_; }
   const CodeBlocks& blocks() const { return blocks_; }
-  std::vector<std::uint8_t> codes() const;  // all, row by row
+  bool has_water() const { return has_water_; }  // shares of water of any post
+  std::vector<std::uint8_t> posts() const;       // the bytes of all, row by row
   // Returns the culture with every 2^reduction-th post. Each dimension is halved up to `reduction` times. Halving stops
   // when the number of intervals is odd, or when fewer than two intervals would remain.
   Culture reduced(int reduction) const;
-  std::uint8_t code(int row, int column) const { return blocks_.post(row, column); }
-  // Code of the nearest post. Degrees count from the south-west corner and are clamped to [0, 1].
-  std::uint8_t nearest(double north_deg, double east_deg) const;
+  Cover post(int row, int column) const { return cover_of(blocks_.post(row, column)); }
+  // Cover of the nearest post. Degrees count from the south-west corner and are clamped to [0, 1].
+  Cover nearest(double north_deg, double east_deg) const;
   std::size_t bytes() const { return sizeof(*this) + blocks_.bytes(); }
 
  private:
@@ -62,6 +89,7 @@ class Culture {
   int rows_;
   int columns_;
   CodeBlocks blocks_;
+  bool has_water_;
 };
 
 inline constexpr int kMaxCulturePosts = 10801;  // per edge, 1/3 arc second apart; bounds the memory for a file
@@ -77,9 +105,10 @@ bool is_culture_name(const std::filesystem::path& path);
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation, file::FolderNames& names);
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 
-// Reads a culture file: a pixel's palette index is the code of a post. The palette's colours are ignored.
-// Errors: not an indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a code above kMaxMaterial. The
-// message gives column and row of the first wrong code, counted from 0 at the north-west corner.
+// Reads a culture file: a pixel's palette index is the byte of a post. The palette's colours are ignored, except that
+// bytes with a share of water need the palette of write_culture().
+// Errors: not an indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a byte above kMaxMaterial with
+// another palette. The message gives column and row of the first wrong one, counted from 0 at the north-west corner.
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCorner corner);
 
 // Red, green, blue of a material; gray for the free codes.
@@ -88,7 +117,8 @@ std::array<std::uint8_t, 3> material_colour(std::uint8_t code);
 // Removes all culture files of an elevation file, with names in upper or lower case. Errors: a file cannot be removed.
 error::Expected<void> remove_culture(const std::filesystem::path& elevation);
 
-// Writes a culture file, with the colours of material_colour() as its palette, and creates missing folders.
+// Writes a culture file, with the colours of material_colour() as its palette, those of shares of water mixed with that
+// of water, and creates missing folders.
 error::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture);
 
 }  // namespace yars::model::terrain

@@ -1,3 +1,4 @@
+#include "model/terrain/gdal/land_cover.hpp"
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/gdal/raster_survey.hpp"
@@ -32,6 +33,16 @@ error::Expected<RasterPosts> read_raster(const std::vector<std::filesystem::path
 error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
                                                                const std::function<void(double)>& /*progress*/) {
   return built_without(path);
+}
+
+error::Expected<CoverSummary> describe_cover(const std::filesystem::path& path) {
+  return built_without(path);
+}
+
+error::Expected<CoverPosts> read_cover(const std::vector<std::filesystem::path>& rasters, const CoverLegend& /*legend*/,
+                                       int /*south_deg*/, int /*west_deg*/, int /*posts_per_degree_north*/,
+                                       int /*posts_per_degree_east*/) {
+  return built_without(rasters.front());
 }
 
 error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& /*picture*/) {

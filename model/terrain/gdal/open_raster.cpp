@@ -19,16 +19,19 @@ namespace {
 constexpr std::array<const char*, 12> kDrivers = {"GTiff",   "JP2OpenJPEG",    "HFA", "AAIGrid", "EHdr",    "ENVI",
                                                   "USGSDEM", "GRASSASCIIGrid", "BT",  "DTED",    "SRTMHGT", nullptr};
 
-bool has_heights(GDALDatasetH dataset) {
+bool has_content(GDALDatasetH dataset, Content content) {
   if (GDALGetRasterCount(dataset) != 1) return false;
   switch (GDALGetRasterDataType(GDALGetRasterBand(dataset, 1))) {
+    case GDT_Byte:
+      return content == Content::classes;
     case GDT_Int16:
     case GDT_UInt16:
     case GDT_Int32:
     case GDT_UInt32:
+      return true;
     case GDT_Float32:
     case GDT_Float64:
-      return true;
+      return content == Content::heights;
     default:
       return false;
   }
@@ -85,11 +88,12 @@ MessageCapture::~MessageCapture() {
   CPLPopErrorHandler();
 }
 
-error::Expected<Raster> open_raster(const std::filesystem::path& path) {
+error::Expected<Raster> open_raster(const std::filesystem::path& path, Content content) {
   const std::string subject = path.string();
+  const std::string what = content == Content::heights ? "heights" : "classes";
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return error::fail(subject, "a raster of heights in a regular file",
+    return error::fail(subject, "a raster of " + what + " in a regular file",
                        code ? error::reason_of(code.value()) : "not a regular file");
   if (const auto loaded = load_gdal(subject); !loaded) return tl::unexpected(loaded.error());
   const MessageCapture messages;
@@ -101,10 +105,13 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
                                   nullptr));
   GDALDatasetH const dataset = raster.dataset.get();
   if (dataset == nullptr)
-    return error::fail(subject, "a raster of heights in a regular file (GeoTIFF, JPEG 2000, Erdas Imagine, ...)",
+    return error::fail(subject, "a raster of " + what + " in a regular file (GeoTIFF, JPEG 2000, Erdas Imagine, ...)",
                        messages.first_or("one that GDAL does not open"));
-  if (!has_heights(dataset))
-    return error::fail(subject, "one band of heights, 16 bits or more", bands_of(dataset), "it may be a picture");
+  if (!has_content(dataset, content))
+    return error::fail(subject,
+                       content == Content::heights ? "one band of heights, 16 bits or more"
+                                                   : "one band of classes, which are whole numbers",
+                       bands_of(dataset), "it may be a picture");
   raster.subject = subject;
   raster.heights = GDALGetRasterBand(dataset, 1);
   raster.columns = GDALGetRasterXSize(dataset);

@@ -56,8 +56,11 @@ struct Raster {
   bool whole_metres = false;            // true: all heights are whole metres
 };
 
-// Opens a raster with one band of heights and reads its georeference, unit, scale and no-data value.
-error::Expected<Raster> open_raster(const std::filesystem::path& path);
+// What the band of a raster has. Classes: whole numbers of any size, without unit and scale.
+enum class Content : std::uint8_t { heights, classes };
+
+// Opens a raster with one band and reads its georeference, unit, scale and no-data value.
+error::Expected<Raster> open_raster(const std::filesystem::path& path, Content content = Content::heights);
 
 // Rectangle of pixels or blocks: [first, first + count) in each dimension.
 struct Box {

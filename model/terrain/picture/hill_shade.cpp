@@ -91,8 +91,9 @@ double rise_or_level(double difference_m) {
 Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelStep step, double east_m_per_deg) {
   const Cell& cell = ground.cell;
   const Surface here = interpolate(cell, north_deg, east_deg);
+  const Cover cover = ground.culture != nullptr ? ground.culture->nearest(north_deg, east_deg) : Cover{};
+  if (cover.water.value_or(here.water) > 0.5) return kSea;
   if (std::isnan(here.elevation_m)) return kVoid;
-  if (here.water > 0.5) return kSea;
   // The slope is a difference over two pixels or two post spacings, whichever is wider, clipped at the cell's edges.
   const double offset_north_deg = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
   const double offset_east_deg = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
@@ -104,8 +105,7 @@ Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelS
     return rise_or_level(interpolate(cell, to_north, to_east).elevation_m -
                          interpolate(cell, from_north, from_east).elevation_m);
   };
-  const std::uint8_t material = ground.culture != nullptr ? ground.culture->nearest(north_deg, east_deg) : 0;
-  return lit_cover(material, here.elevation_m,
+  return lit_cover(cover.material, here.elevation_m,
                    rise(north_deg, west, north_deg, east) / ((east - west) * east_m_per_deg),
                    rise(south, east_deg, north, east_deg) / ((north - south) * geo::kMetresPerDegree));
 }

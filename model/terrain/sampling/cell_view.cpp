@@ -255,7 +255,11 @@ Surface CellView::surface_in(CellCorner corner, double north_deg, double east_de
         interpolate(*cell.peaks, north_deg, east_deg, nearest ? Interpolation::nearest : Interpolation::bilinear)
             .elevation_m;
   }
-  if (cell.culture) surface.material = cell.culture->nearest(north_deg, east_deg);
+  if (cell.culture) {
+    const Cover cover = cell.culture->nearest(north_deg, east_deg);
+    surface.material = cover.material;
+    surface.water = cover.water.value_or(surface.water);
+  }
   return surface;
 }
 
@@ -343,6 +347,8 @@ void CellView::sample_run(const Run& run, const PositionRun& positions, Interpol
       sampling::cubic_heights(grid, north_deg, east_deg, run.count, elevation_m);
   }
   if (material != nullptr && !with_heights) sampling::codes(*cell.culture, north_deg, east_deg, run.count, material);
+  if (material != nullptr && cell.culture->has_water())
+    sampling::unpack_covers(run.count, material, &found.water[run.first]);
   if (found.peak_m.empty()) return;
   if (cell.peaks)
     sampling::heights(grid_of(*cell.peaks), north_deg, east_deg, run.count, nearest,

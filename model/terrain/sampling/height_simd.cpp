@@ -299,6 +299,19 @@ void codes(const Culture& culture, const float* north_deg, const float* east_deg
   }
 }
 
+void unpack_covers(std::size_t count, std::int32_t* material, float* water) {
+  const IntLanes di;
+  const FloatLanes d;
+  const auto step = hn::Set(d, 1.0F / 6.0F);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
+    const auto cover = hn::LoadU(di, material + i);
+    const auto share = hn::Sub(hn::ShiftRight<5>(cover), hn::Set(di, 1));
+    const auto known = hn::RebindMask(d, hn::Gt(share, hn::Set(di, -1)));
+    hn::StoreU(hn::IfThenElse(known, hn::Mul(hn::ConvertTo(d, share), step), hn::LoadU(d, water + i)), d, water + i);
+    hn::StoreU(hn::And(cover, hn::Set(di, std::int32_t{kMaxMaterial})), di, material + i);
+  }
+}
+
 }  // namespace yars::model::terrain::sampling::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -318,10 +331,14 @@ std::size_t same_cell_count(const float* cells_north, const float* cells_east, s
 }
 
 HWY_EXPORT(codes);
+HWY_EXPORT(unpack_covers);
 
 void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
            std::int32_t* material) {
   HWY_DYNAMIC_DISPATCH(codes)(culture, north_deg, east_deg, count, material);
+}
+void unpack_covers(std::size_t count, std::int32_t* material, float* water) {
+  HWY_DYNAMIC_DISPATCH(unpack_covers)(count, material, water);
 }
 
 }  // namespace yars::model::terrain::sampling

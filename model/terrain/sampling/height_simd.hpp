@@ -48,8 +48,13 @@ struct Heights {
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              const Heights& found);
 
-// Material code of the culture post nearest to each position. The spare entries of `material` are overwritten.
+// Byte of the culture post nearest to each position: a material code, if the culture has no shares of water. The spare
+// entries of `material` are overwritten.
 void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
            std::int32_t* material);
+
+// Replaces the bytes by their material codes, and `water` by the share where it is known (cover_of()). The spare
+// entries of both are overwritten.
+void unpack_covers(std::size_t count, std::int32_t* material, float* water);
 
 }  // namespace yars::model::terrain::sampling

@@ -168,7 +168,7 @@ TEST_F(TerrainBatch, CultureIsWrittenBesideItsCell) {
     const int step = 240 / (each.posts - 1);
     for (int row = 0; row < each.posts; ++row)
       for (int column = 0; column < each.posts; ++column)
-        ASSERT_EQ(found->code(row, column), culture.code(row * step, column * step)) << each.command;
+        ASSERT_EQ(found->post(row, column).material, culture.post(row * step, column * step).material) << each.command;
     EXPECT_FALSE(std::filesystem::exists(tree / "w121/n36.smc.png")) << "the other cell has no culture";
   }
 }

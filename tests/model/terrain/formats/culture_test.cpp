@@ -28,7 +28,7 @@ TEST(Culture, IsUnchangedAfterWritingAndReading) {
   ASSERT_TRUE(read.has_value()) << read.error().message();
   ASSERT_EQ(read->rows(), 4);
   ASSERT_EQ(read->columns(), 3);
-  EXPECT_EQ(read->codes(), small_culture().codes());
+  EXPECT_EQ(read->posts(), small_culture().posts());
 }
 
 TEST(Culture, HasNorthOnTopInItsPicture) {
@@ -37,18 +37,38 @@ TEST(Culture, HasNorthOnTopInItsPicture) {
   ASSERT_TRUE(write_culture(path, small_culture()).has_value());
   const auto image = imageio::read_indexed_png(path, 100);
   ASSERT_TRUE(image.has_value());
-  EXPECT_EQ(image->pixels[0], small_culture().code(3, 0));
-  EXPECT_EQ(image->pixels[11], small_culture().code(0, 2));
+  EXPECT_EQ(image->pixels[0], small_culture().post(3, 0).material);
+  EXPECT_EQ(image->pixels[11], small_culture().post(0, 2).material);
   const auto water = static_cast<std::size_t>(Material::water);
   EXPECT_GT(image->palette[water][2], image->palette[water][0]) << "water looks blue";
 }
 
 TEST(Culture, HasTheMaterialOfTheNearestPost) {
   const Culture culture = small_culture();
-  EXPECT_EQ(culture.nearest(0.0, 0.0), 0);
-  EXPECT_EQ(culture.nearest(1.0, 1.0), 11);
-  EXPECT_EQ(culture.nearest(0.4, 0.6), culture.code(1, 1));
-  EXPECT_EQ(culture.nearest(-3.0, 7.0), culture.code(0, 2)) << "outside: the nearest post of the edge";
+  EXPECT_EQ(culture.nearest(0.0, 0.0).material, 0);
+  EXPECT_EQ(culture.nearest(1.0, 1.0).material, 11);
+  EXPECT_EQ(culture.nearest(0.4, 0.6).material, culture.post(1, 1).material);
+  EXPECT_EQ(culture.nearest(-3.0, 7.0).material, culture.post(0, 2).material)
+      << "outside: the nearest post of the edge";
+}
+
+TEST(Culture, KeepsSharesOfWater) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "n36.smc.png";
+  const std::vector<Cover> covers{{12, 0.0}, {12, 0.4}, {0, 1.0}, {6, {}}, {31, 0.5}, {10, {}}};
+  std::vector<std::uint8_t> bytes;
+  for (const Cover& cover : covers) bytes.push_back(cover_byte(cover));
+  ASSERT_TRUE(write_culture(path, Culture(kCorner, 2, 3, bytes)).has_value());
+  const auto read = read_culture(path, kCorner);
+  ASSERT_TRUE(read.has_value()) << read.error().message();
+  EXPECT_TRUE(read->has_water());
+  for (int post = 0; post < 6; ++post) {
+    const Cover found = read->post(post / 3, post % 3), &written = covers[static_cast<std::size_t>(post)];
+    EXPECT_EQ(found.material, written.material) << post;
+    ASSERT_EQ(found.water.has_value(), written.water.has_value()) << post;
+    EXPECT_NEAR(found.water.value_or(0.0), written.water.value_or(0.0), 1.0 / 12.0) << post;
+  }
+  EXPECT_FALSE(small_culture().has_water());
 }
 
 TEST(CultureTile, IsBesideTheElevationCell) {
