@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -52,9 +53,9 @@ struct Cover {
 };
 
 // A cover as one byte of a culture file: the material, and 32 times 1 + six times the share of water (rounded), or 0.
-constexpr std::uint8_t cover_byte(const Cover& cover) {
+inline std::uint8_t cover_byte(const Cover& cover) {
   constexpr double kSteps = 6.0;
-  const unsigned share = cover.water ? 1U + static_cast<unsigned>(kSteps * *cover.water + 0.5) : 0U;
+  const unsigned share = cover.water ? 1U + static_cast<unsigned>(std::lround(kSteps * *cover.water)) : 0U;
   return static_cast<std::uint8_t>(cover.material | share << 5U);
 }
 constexpr Cover cover_of(std::uint8_t byte) {

@@ -46,7 +46,7 @@ class CoverReader {
       for (int column = range.first_column; column < range.end_column; column += tile) {
         const PostTile posts{row, column, std::min(row + tile, range.end_row),
                              std::min(column + tile, range.end_column)};
-        if (const auto done = read_tile(posts); !done) return done;
+        if (auto done = read_tile(posts); !done) return done;
       }
     return {};
   }
