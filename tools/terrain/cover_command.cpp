@@ -72,6 +72,8 @@ class CoverRun {
   explicit CoverRun(const CoverOptions& options) : options_(options) {
     check_folder_name("--out", options.out);
     legend_ = value_of(legend_of(options.legend));
+    for (const CoverClass& row : legend_)
+      classes_.push_back({row.values, row.material == static_cast<std::uint8_t>(Material::water)});
     for (const std::string& raster : options.rasters) {
       const auto summary = value_of(gdal::describe_cover(raster));
       for (const gdal::RasterCell& cell : summary.cells)
@@ -127,7 +129,7 @@ class CoverRun {
     }
     const CultureGrid grid =
         culture_grid(corner, options_.posts == "auto" ? posts_for(finest_) : std::stoi(options_.posts));
-    auto cover = gdal::read_cover(*rasters, legend_, corner.south_deg, corner.west_deg, grid.north, grid.east);
+    auto cover = gdal::read_cover(*rasters, classes_, corner.south_deg, corner.west_deg, grid.north, grid.east);
     if (!cover) return tl::unexpected(cover.error());
     for (const auto& [value, pixels] : cover->unknown) unknown_[value] += pixels;
     notes_.insert(cover->notes.begin(), cover->notes.end());
@@ -232,6 +234,7 @@ class CoverRun {
 
   const CoverOptions options_;
   CoverLegend legend_;
+  std::vector<gdal::PixelClass> classes_;  // of legend_
   DirectoryIndex index_;
   std::map<std::size_t, std::vector<fs::path>> rasters_;  // by slot of the cell
   double finest_ = 0.0;                                   // [pixels/deg]

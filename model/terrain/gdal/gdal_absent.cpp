@@ -39,9 +39,9 @@ error::Expected<CoverSummary> describe_cover(const std::filesystem::path& path) 
   return built_without(path);
 }
 
-error::Expected<CoverPosts> read_cover(const std::vector<std::filesystem::path>& rasters, const CoverLegend& /*legend*/,
-                                       int /*south_deg*/, int /*west_deg*/, int /*posts_per_degree_north*/,
-                                       int /*posts_per_degree_east*/) {
+error::Expected<CoverPosts> read_cover(const std::vector<std::filesystem::path>& rasters,
+                                       const std::vector<PixelClass>& /*legend*/, int /*south_deg*/, int /*west_deg*/,
+                                       int /*posts_per_degree_north*/, int /*posts_per_degree_east*/) {
   return built_without(rasters.front());
 }
 

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "model/terrain/formats/culture.hpp"
 #include "model/terrain/gdal/georeference.hpp"
 #include "model/terrain/gdal/open_raster.hpp"
 
@@ -16,7 +15,7 @@ namespace {
 constexpr int kUnknownValue = -1;  // pixel without data
 
 // Index into the legend by value of a pixel.
-std::vector<std::uint8_t> classes_by_value(const CoverLegend& legend) {
+std::vector<std::uint8_t> classes_by_value(const std::vector<PixelClass>& legend) {
   std::vector<std::uint8_t> class_of(65536, kNoClass);
   for (std::size_t i = 0; i < legend.size(); ++i)
     for (const std::uint16_t value : legend[i].values) class_of[value] = static_cast<std::uint8_t>(i);
@@ -31,7 +30,7 @@ struct Span {
 // Fills the posts without a class from one raster, in tiles of posts.
 class CoverReader {
  public:
-  CoverReader(const Raster& raster, const Grid& grid, const CoverLegend& legend, CoverPosts& posts)
+  CoverReader(const Raster& raster, const Grid& grid, const std::vector<PixelClass>& legend, CoverPosts& posts)
       : raster_(raster), grid_(grid), legend_(legend), class_of_(classes_by_value(legend)), posts_(posts) {}
 
   error::Expected<void> read() {
@@ -190,7 +189,7 @@ class CoverReader {
     std::uint32_t all = 0, water = 0;
     for (const std::uint8_t candidate : candidates_) {
       const std::uint32_t votes = votes_[candidate];
-      const bool wet = legend_[candidate].material == static_cast<std::uint8_t>(Material::water);
+      const bool wet = legend_[candidate].water;
       all += votes;
       if (wet) water += votes;
       if (!wet) of_land.take(candidate, votes);
@@ -205,7 +204,7 @@ class CoverReader {
 
   const Raster& raster_;
   const Grid grid_;
-  const CoverLegend& legend_;
+  const std::vector<PixelClass>& legend_;
   const std::vector<std::uint8_t> class_of_;  // by value of a pixel
   CoverPosts& posts_;
   Box box_;                           // pixels of values_
@@ -231,9 +230,9 @@ error::Expected<CoverSummary> describe_cover(const std::filesystem::path& path) 
   return summary;
 }
 
-error::Expected<CoverPosts> read_cover(const std::vector<std::filesystem::path>& rasters, const CoverLegend& legend,
-                                       int south_deg, int west_deg, int posts_per_degree_north,
-                                       int posts_per_degree_east) {
+error::Expected<CoverPosts> read_cover(const std::vector<std::filesystem::path>& rasters,
+                                       const std::vector<PixelClass>& legend, int south_deg, int west_deg,
+                                       int posts_per_degree_north, int posts_per_degree_east) {
   YARS_REQUIRE(rasters.empty(), ==, false);
   YARS_REQUIRE(legend.size(), <=, kMaxClasses);
   const Grid grid{south_deg, west_deg, posts_per_degree_north + 1, posts_per_degree_east + 1};

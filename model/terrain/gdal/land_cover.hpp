@@ -1,8 +1,8 @@
 // Rasters of land cover as classes by post of a one-degree cell, through GDAL and PROJ.
-// Input: files as in raster.hpp, with one band of whole numbers, and a legend (cover_legend.hpp).
-// Output: for each post the class of the legend that most pixels have whose centres lie in the square around it, which
-//   reaches half way to the next posts, and the share of pixels with the material water. Of classes with equally many,
-//   the first in the legend. Where posts are closer than pixels, the class of the pixel at the post.
+// Input: files as in raster.hpp, with one band of whole numbers, and the classes of a legend.
+// Output: for each post the class that most pixels have whose centres lie in the square around it, which
+//   reaches half way to the next posts, and the share of pixels with water. Of classes with equally many, the first in
+//   the legend. Where posts are closer than pixels, the class of the pixel at the post.
 // Errors: as in raster.hpp; a band that is not of whole numbers.
 // Threads: the functions are thread-safe.
 #pragma once
@@ -15,13 +15,18 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "model/terrain/formats/cover_legend.hpp"
 #include "model/terrain/gdal/raster_cover.hpp"
 
 namespace yars::model::terrain::gdal {
 
 inline constexpr std::uint8_t kNoClass = 255;
 inline constexpr std::size_t kMaxClasses = 255;  // of a legend
+
+// A class of a legend.
+struct PixelClass {
+  std::vector<std::uint16_t> values;  // of the pixels
+  bool water = false;
+};
 
 struct CoverSummary {
   std::vector<RasterCell> cells;
@@ -43,8 +48,8 @@ struct CoverPosts {
 
 // Reads the posts of one cell. A post without a class in the first raster has that of the next raster with one.
 // Requires at least one raster and at most kMaxClasses classes.
-error::Expected<CoverPosts> read_cover(const std::vector<std::filesystem::path>& rasters, const CoverLegend& legend,
-                                       int south_deg, int west_deg, int posts_per_degree_north,
-                                       int posts_per_degree_east);
+error::Expected<CoverPosts> read_cover(const std::vector<std::filesystem::path>& rasters,
+                                       const std::vector<PixelClass>& legend, int south_deg, int west_deg,
+                                       int posts_per_degree_north, int posts_per_degree_east);
 
 }  // namespace yars::model::terrain::gdal

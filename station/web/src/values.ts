@@ -129,8 +129,8 @@ export const LATEST_SIM_TIME_S = 576460752;
 // gray: RMS of the video, 255 = white; scan_ms: processor time of one thread; null: not comparable.
 export const MEASURED = {
   "1996": { gray: null, power_db: null, shadow_percent: 7.17, scan_ms: 0.79 },
-  "draft": { gray: 13.3, power_db: 3.08, shadow_percent: 2.3, scan_ms: 0.75 },
-  "standard": { gray: 7.39, power_db: 1.1, shadow_percent: 1.38, scan_ms: 2.37 },
-  "fine": { gray: 2.04, power_db: 0.2, shadow_percent: 0.035, scan_ms: 9 },
-  "reference": { gray: 0, power_db: 0, shadow_percent: 0, scan_ms: 2780 },
+  "draft": { gray: 13.3, power_db: 3.08, shadow_percent: 2.3, scan_ms: 0.8 },
+  "standard": { gray: 7.39, power_db: 1.1, shadow_percent: 1.38, scan_ms: 2.01 },
+  "fine": { gray: 2.04, power_db: 0.2, shadow_percent: 0.035, scan_ms: 8.72 },
+  "reference": { gray: 0, power_db: 0, shadow_percent: 0, scan_ms: 2908 },
 } satisfies Record<string, Record<string, number | null>>;
