@@ -1,5 +1,5 @@
-// Any bytes as a culture map (an indexed PNG): material codes in range, or an error. A map that was read is written and
-// read again, with equal codes. The input modifies a well-formed PNG. Its first byte decides whether the checksums of
+// Any bytes as a culture map (an indexed PNG): covers in range, or an error. A map that was read is written and read
+// again, with equal covers. The input modifies a well-formed PNG. Its first byte decides whether the checksums of
 // the chunks are corrected (seven values of eight), and whether the file is cut (values from 224).
 #include <zlib.h>
 
@@ -33,11 +33,11 @@ void correct_checksums(std::vector<std::byte>& file) {
   }
 }
 
-// 21 x 17 posts with every code.
+// 21 x 17 posts with every material and share of water.
 std::vector<std::byte> well_formed_map(const std::filesystem::path& path) {
-  std::vector<std::uint8_t> codes(21UL * 17UL);
-  for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<std::uint8_t>(i % 32);
-  YARS_REQUIRE(model::terrain::write_culture(path, {{36, -122}, 17, 21, codes}).has_value(), ==, true);
+  std::vector<std::uint8_t> posts(21UL * 17UL);
+  for (std::size_t i = 0; i < posts.size(); ++i) posts[i] = static_cast<std::uint8_t>(i);
+  YARS_REQUIRE(model::terrain::write_culture(path, {{36, -122}, 17, 21, posts}).has_value(), ==, true);
   std::vector<std::byte> bytes(std::filesystem::file_size(path));
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   YARS_REQUIRE(::read(file, bytes.data(), bytes.size()), ==, static_cast<ssize_t>(bytes.size()));
@@ -59,10 +59,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto culture = model::terrain::read_culture(file.path(), {36, -122});
   if (!culture) return 0;
   YARS_REQUIRE(culture->rows(), <=, model::terrain::kMaxCulturePosts);
-  for (const std::uint8_t code : culture->codes()) YARS_REQUIRE(code, <=, model::terrain::kMaxMaterial);
+  for (int row = 0; row < culture->rows(); ++row) {
+    const model::terrain::Cover cover = culture->post(row, 0);
+    YARS_REQUIRE(cover.material, <=, model::terrain::kMaxMaterial);
+    YARS_REQUIRE(cover.water.value_or(0.0), <=, 1.0);
+  }
   YARS_REQUIRE(model::terrain::write_culture(again.path(), *culture).has_value(), ==, true);
   const auto read = model::terrain::read_culture(again.path(), {36, -122});
   YARS_REQUIRE(read.has_value(), ==, true);
-  YARS_REQUIRE(std::ranges::equal(read->codes(), culture->codes()), ==, true);
+  YARS_REQUIRE(std::ranges::equal(read->posts(), culture->posts()), ==, true);
   return 0;
 }
