@@ -312,7 +312,7 @@ std::vector<SlotSchema> map_fidelity_slots() {
       flag("diffraction", YARS_FIELD(radar.fidelity.diffraction),
            "edges bend rays into shadows; with the algorithm reference only"),
       flag("seaLobes", YARS_FIELD(radar.fidelity.sea_lobes),
-           "movers over the sea: the direct ray and the one that the sea reflects interfere")};
+           "movers and scenes over the sea: the direct ray and the one that the sea reflects interfere")};
 }
 
 std::vector<SlotSchema> receiver_slots() {

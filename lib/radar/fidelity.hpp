@@ -49,7 +49,7 @@ struct Fidelity {
   bool pulse_smear = true;     // smear over the pulse length
   BeamPattern beam = BeamPattern::mapping;
   bool diffraction = false;  // algorithm reference only: edges of shadows are soft
-  bool sea_lobes = false;    // movers over the sea: direct and reflected ray interfere
+  bool sea_lobes = false;    // movers and scenes over the sea: direct and reflected ray interfere
   // Parameters of patch maps.
   int map_size = 480;             // [pixels] edge of the map; in a session at most 1024
   int map_oversampling = 1;       // cells of the polar grid (range, azimuth) per pixel, in each direction, 1 to 4

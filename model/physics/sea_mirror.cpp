@@ -30,8 +30,8 @@ SeaMirror::SeaMirror(const RadarParameters& parameters)
       wavelength_m_(wavelength_m(parameters.frequency_ghz)),
       roughness_m_(sea_height_m(geo::Speed::metres_per_second(make_sea_return(parameters).wind_mps))) {}
 
-double SeaMirror::lobe_factor(const EffectiveEarth& earth, double altitude_m, double distance_m,
-                              double height_m) const {
+double SeaMirror::lobe_factor(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
+                              double extent_m) const {
   if (!works_ || !(height_m > 0.0)) return 1.0;
   constexpr double kBent = 4.0 / 3.0;  // over the short way from reflection to target
   const double radius_m = kBent * geo::kMeanEarthRadius_m;
@@ -45,11 +45,16 @@ double SeaMirror::lobe_factor(const EffectiveEarth& earth, double altitude_m, do
   }
   const double rough = 2.0 * std::numbers::pi * roughness_m_ * sine / wavelength_m_;
   // 4 h1 h2 / (sum of both ways), h1 and h2 the heights of aircraft and target above the level at the reflection.
-  const double difference_m = 2.0 * above_m * sine * (1.0 - back_m / distance_m);
-  const double phase_rad = 2.0 * std::numbers::pi * difference_m / wavelength_m_;
-  const std::complex<double> sum =
-      1.0 + std::exp(-2.0 * rough * rough) * sea_reflection(polarization_, sine) * std::polar(1.0, -phase_rad);
-  return std::norm(sum) * std::norm(sum);
+  const double rad_per_m = 4.0 * std::numbers::pi / wavelength_m_ * sine * (1.0 - back_m / distance_m);
+  const std::complex<double> reflected = std::exp(-2.0 * rough * rough) * sea_reflection(polarization_, sine);
+  // |1 + rho exp(j angle)|^4 = (1 + rho^2 + 2 rho cos angle)^2, and means of cosines over the angles of the extent.
+  const double angle_rad = std::arg(reflected) - rad_per_m * above_m, half_rad = 0.5 * rad_per_m * extent_m;
+  const auto mean_cosine = [&](double times) {
+    const double half = times * half_rad;
+    return std::cos(times * angle_rad) * (half > 0.0 ? std::sin(half) / half : 1.0);
+  };
+  const double square = std::norm(reflected), size = std::abs(reflected), sum = 1.0 + square;
+  return sum * sum + 2.0 * square + 4.0 * sum * size * mean_cosine(1.0) + 2.0 * square * mean_cosine(2.0);
 }
 
 }  // namespace yars::model::physics

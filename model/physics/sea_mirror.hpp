@@ -1,11 +1,10 @@
-// Lobes of a point target over the sea: the direct ray and the one that the sea reflects add by their phases, on the
-// way to the target and back.
-// Inputs: height of the target above the sea, its direction by the earth of the sweep; wavelength, polarization, wind.
-// Outputs: factor on the power of the echo, from 0 to 16.
-// Accuracy: for targets far lower than the aircraft. The reflection lies near the target; the sea is level there.
-// Threads: any thread may call any function.
-// Source: Skolnik, "Introduction to Radar Systems", 3rd ed., 8.2: F^4 = |1 + rho exp(-j phase)|^4; Ament 1953: a rough
-// sea reflects rho exp(-2 (2 pi s sin(grazing) / wavelength)^2), s the standard deviation of its height.
+// Lobes of a target over the sea: the direct ray and the one that the sea reflects add by their phases, on the way to
+// the target and back. Inputs: height of the target above the sea, and its extent in height, its direction by the earth
+// of the sweep; wavelength, polarization, wind. Outputs: factor on the power of the echo, from 0 to 16. Accuracy: for
+// targets far lower than the aircraft. The reflection lies near the target; the sea is level there. Threads: any thread
+// may call any function. Source: Skolnik, "Introduction to Radar Systems", 3rd ed., 8.2: F^4 = |1 + rho exp(-j
+// phase)|^4; Ament 1953: a rough sea reflects rho exp(-2 (2 pi s sin(grazing) / wavelength)^2), s the standard
+// deviation of its height.
 #pragma once
 
 #include <complex>
@@ -28,8 +27,10 @@ class SeaMirror {
   explicit SeaMirror(const RadarParameters& parameters);
 
   bool works() const { return works_; }  // false: without the slot seaLobes, lobe_factor() is 1
-  // `height_m`: of the target above the sea, `distance_m` over ground.
-  double lobe_factor(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
+  // `height_m`: of the target's middle above the sea, `distance_m` over ground. The cross section is even over
+  // `extent_m` of height; the factor is its mean.
+  double lobe_factor(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
+                     double extent_m = 0.0) const;
 
  private:
   bool works_;

@@ -36,6 +36,7 @@ PointReturn::PointReturn(const physics::RadarParameters& parameters)
       movers_(parameters),
       mover_sights_(parameters, parameters.world.movers.size() + physics::kMaxTraffic),
       gas_(parameters),
+      sea_mirror_(parameters),
       surface_(parameters),
       tables_(surface_),
       echoes_(kEchoes),
@@ -50,6 +51,12 @@ void PointReturn::use_movers(const physics::RadarParameters& parameters) {
   movers_.use_movers(parameters);
   // The lines of sight are kept by number, and each number may be another mover from here on.
   mover_sights_ = MoverSights(parameters, parameters.world.movers.size() + physics::kMaxTraffic);
+}
+
+void PointReturn::use_sea(const physics::RadarParameters& parameters) {
+  movers_.use_sea(parameters);
+  sea_mirror_ = physics::SeaMirror(parameters);
+  ++view_number_;  // the powers of the echoes are those of another sea
 }
 
 bool PointReturn::may_return(const physics::SweepGeometry& geometry, const physics::Environment& environment) const {
@@ -251,10 +258,25 @@ double PointReturn::power_of(const Sweep& sweep, const SceneRay::InScene& ray, c
   const double gain = physics::two_way_gain(beam_, sweep.receiver.elevation_beamwidth_rad,
                                             sweep.geometry.elevation.radians(), sight.elevation_rad);
   const double loss = gas_.two_way_transmission(earth, altitude_m, echo.distance_m, middle_m);
+  const double lobes = sea_mirror_.works() ? lobe_factor(sweep, scatterer, echo, earth) : 1.0;
   return physics::received(
       sweep.receiver,
-      physics::returned_power(cross_section_m2(level, scatterer, ray, sight), loss * gain, sight.slant_range_m),
+      physics::returned_power(cross_section_m2(level, scatterer, ray, sight), lobes * loss * gain, sight.slant_range_m),
       sight.slant_range_m);
+}
+
+// Only a scatterer over water has lobes. `water` of its own position stands for that of the reflection.
+double PointReturn::lobe_factor(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo,
+                                const physics::EffectiveEarth& earth) const {
+  const geo::GeoPoint position = geo::geodesic_direct(sweep.geometry.apex, geo::Bearing::radians(echo.azimuth_rad),
+                                                      geo::Length::metres(echo.distance_m));
+  const terrain::Surface below = sweep.environment.terrain.surface_at(position, radar::Interpolation::nearest);
+  if (!(below.water > 0.5)) return 1.0;
+  const double sea_m = std::isnan(below.elevation_m) ? 0.0 : below.elevation_m;
+  const double low_m = std::max(0.0, static_cast<double>(scatterer.min_msl_m) - sea_m);
+  const double high_m = std::max(low_m, static_cast<double>(scatterer.max_msl_m) - sea_m);
+  return sea_mirror_.lobe_factor(earth, sweep.geometry.altitude.metres(), echo.distance_m, 0.5 * (low_m + high_m),
+                                 high_m - low_m);
 }
 
 double PointReturn::cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer,

@@ -23,6 +23,7 @@
 #include "model/physics/environment.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
+#include "model/physics/sea_mirror.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/line_of_sight.hpp"
@@ -37,7 +38,7 @@ class PointReturn {
   explicit PointReturn(const physics::RadarParameters& parameters);
   // Replaces the configured movers.
   void use_movers(const physics::RadarParameters& parameters);
-  void use_sea(const physics::RadarParameters& parameters) { movers_.use_sea(parameters); }
+  void use_sea(const physics::RadarParameters& parameters);
 
   // False if there is no mover, and no scene within the range. Then add() changes nothing.
   bool may_return(const physics::SweepGeometry& geometry, const physics::Environment& environment) const;
@@ -119,6 +120,8 @@ class PointReturn {
             std::uint64_t key) const;
   double power_of(const Sweep& sweep, const SceneRay::InScene& ray, const scene::ScattererLevel& level,
                   const scene::Scatterer& scatterer, const Echo& echo) const;
+  double lobe_factor(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo,
+                     const physics::EffectiveEarth& earth) const;
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer,
                           const SceneRay::InScene& ray, const physics::Sight& sight) const;
   void set_rays(const physics::SweepGeometry& geometry, std::span<const RayGround* const> rays);
@@ -142,6 +145,7 @@ class PointReturn {
   physics::Movers movers_;
   MoverSights mover_sights_;
   physics::GasPath gas_;
+  physics::SeaMirror sea_mirror_;
   physics::SceneSurface surface_;
   simd::SceneTables tables_;
   std::vector<Echo> echoes_;  // by number of the scatterer, modulo their size

@@ -14,6 +14,7 @@
 #include "model/rbm/beam.hpp"
 #include "model/rbm/emitters.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/made_up_objects.hpp"
 #include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
 #include "tests/truth/ledger.hpp"
@@ -328,16 +329,56 @@ double lobe_db(double distance_m) {
   return 10.0 * std::log10(echo(true) / echo(false));
 }
 
-// |1 + rho exp(-j phase)|^4 with the exact difference of both ways over a flat sea, and Fresnel's rho.
+// |1 + rho exp(-j phase)| with the exact difference of both ways over a flat sea, and Fresnel's rho.
+double field_of_two_rays(double distance_m, double height_m) {
+  const double wavelength_m = 299792458.0 / 9.6e9;
+  const double sum_m = kAltitude_m + height_m, difference_m = kAltitude_m - height_m;
+  const double ways_m = std::hypot(distance_m, sum_m) - std::hypot(distance_m, difference_m);
+  const double sine = sum_m / std::hypot(distance_m, sum_m), cosine2 = 1.0 - sine * sine;
+  const std::complex<double> root = std::sqrt(std::complex<double>(65.0 - cosine2, -37.0));
+  const std::complex<double> horizontal = (sine - root) / (sine + root);
+  return std::abs(1.0 + horizontal * std::polar(1.0, -2.0 * std::numbers::pi * ways_m / wavelength_m));
+}
+
+// Echo of a wall that stands in the sea, with lobes over without.
+double wall_lobe_db(double distance_m, double height_m) {
+  const auto scene =
+      test::scene_of({{.east_side_m = 20.0, .north_side_m = 0.01, .height_m = height_m}}, north(distance_m));
+  const auto echo = [&](bool lobes) {
+    radar::RadarConfiguration configuration = plain();
+    configuration.fidelity.sea_lobes = lobes;
+    configuration.world.sea.wind_speed_mps = 0.0;
+    model::rbm::Beam beam(configuration);
+    std::vector<float> with(configuration.fidelity.samples), without(with.size());
+    beam.measure(ahead(), {sea(), scene.get()}, with);
+    beam.measure(ahead(), {sea(), nullptr}, without);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < with.size(); ++i) sum += static_cast<double>(with[i]) - static_cast<double>(without[i]);
+    return sum;
+  };
+  return model::decibels(echo(true) / echo(false));
+}
+
+TEST(Points, AWallInACalmSeaHasTheMeanOfItsLobes) {
+  constexpr double kHeight_m = 0.4;
+  for (const double distance_m : {18e3, 55e3}) {
+    constexpr int kSteps = 1000;
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i)
+      sum += std::pow(field_of_two_rays(distance_m, kHeight_m * (i + 0.5) / kSteps), 4.0) / kSteps;
+    expect_row({"Targets",
+                "lobes of a wall 0.4 m high in a calm sea, " + std::to_string(static_cast<int>(distance_m / 1e3)) +
+                    " km, aircraft at 3,000 m",
+                model::decibels(sum), 1.0, "dB", "mean of two rays over the height: Skolnik 2001, 8.2; Fresnel",
+                "the reflected ray is taken at the wall's place"},
+               wall_lobe_db(distance_m, kHeight_m));
+  }
+}
+
 TEST(Points, OverACalmSeaHaveTheLobesOfTwoRays) {
-  const double wavelength_m = 299792458.0 / 9.6e9, height_m = 10.0;
+  constexpr double height_m = 10.0;
   for (const double distance_m : {18e3, 31e3, 55e3}) {
-    const double sum_m = kAltitude_m + height_m, difference_m = kAltitude_m - height_m;
-    const double ways_m = std::hypot(distance_m, sum_m) - std::hypot(distance_m, difference_m);
-    const double sine = sum_m / std::hypot(distance_m, sum_m), cosine2 = 1.0 - sine * sine;
-    const std::complex<double> root = std::sqrt(std::complex<double>(65.0 - cosine2, -37.0));
-    const std::complex<double> horizontal = (sine - root) / (sine + root);
-    const double field = std::abs(1.0 + horizontal * std::polar(1.0, -2.0 * std::numbers::pi * ways_m / wavelength_m));
+    const double field = field_of_two_rays(distance_m, height_m);
     expect_row({"Targets",
                 "lobe of a target 10 m above a calm sea, " + std::to_string(static_cast<int>(distance_m / 1e3)) +
                     " km, aircraft at 3,000 m",
