@@ -6,6 +6,7 @@
 
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/world.hpp"
+#include "model/physics/clutter.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/texture.hpp"
 #include "model/rbm/reference.hpp"
@@ -40,6 +41,9 @@ Beam::Beam(std::unique_ptr<Algorithm> algorithm, const physics::RadarParameters&
   weighted_.reserve(rays_.size());
   grounds_.reserve(rays_.size());
   steady_.reserve(sample_count(parameters));
+  // Computed here, so that no sweep has to.
+  if (parameters.fidelity.noise)
+    for (int looks = 1; looks <= physics::kMaxLooks; ++looks) physics::speckle_levels(looks);
 }
 
 void Beam::use_world(const physics::RadarParameters& parameters, const radar::WorldChanges& changes) {

@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "lib/file/output_file.hpp"
 #include "lib/file/text_file.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/terrain/formats/cover_legend.hpp"
@@ -59,8 +61,12 @@ int posts_for(double pixels_per_degree) {
 }
 
 // A legend of config/legends by its name, or a file.
+std::string legend_path(const std::string& name) {
+  return file::installed_file(name.ends_with(".csv") ? name : name + ".csv");
+}
+
 error::Expected<CoverLegend> legend_of(const std::string& name) {
-  auto legend = read_cover_legend(file::installed_file(name.ends_with(".csv") ? name : name + ".csv"));
+  auto legend = read_cover_legend(name);
   if (legend && legend->size() > gdal::kMaxClasses)
     return error::fail(name, "at most " + std::to_string(gdal::kMaxClasses) + " classes",
                        std::to_string(legend->size()));
@@ -71,7 +77,8 @@ class CoverRun {
  public:
   explicit CoverRun(const CoverOptions& options) : options_(options) {
     check_folder_name("--out", options.out);
-    legend_ = value_of(legend_of(options.legend));
+    const std::string legend = legend_path(options.legend);
+    legend_ = value_of(legend_of(legend));
     for (const CoverClass& row : legend_)
       classes_.push_back({row.values, row.material == static_cast<std::uint8_t>(Material::water)});
     for (const std::string& raster : options.rasters) {
@@ -83,6 +90,8 @@ class CoverRun {
     FileSentences unused;
     index_ = value_of(index_directory(options.terrain, &unused));
     problems_ = std::move(unused.problems);
+    for (const std::string& raster : options.rasters) made_of_ += stamp_of(raster);
+    made_of_ += options.posts + "\n" + value_of(file::read_text_file(legend));
     if (lies_in(options.out, options.terrain))
       throw_failure(error::Error{"yars terrain cover", "--out outside of --terrain",
                                  options.out + " inside of " + options.terrain,
@@ -90,6 +99,12 @@ class CoverRun {
   }
 
   void run() {
+    // A run that was cut off goes on if it has the same rasters, legend and posts.
+    const fs::path note = fs::path(options_.out) / "cover.txt";
+    const auto before = file::read_text_file(note);
+    goes_on_ = before && *before == made_of_;
+    if (const auto written = file::write_file_and_folders(note, std::as_bytes(std::span(made_of_))); !written)
+      throw_failure(written.error());
     Progress progress(index_.size());
     for (const auto& [slot, file] : index_) {
       const auto covered = rasters_.find(slot);
@@ -109,6 +124,18 @@ class CoverRun {
     return std::move(*found);
   }
 
+  // Path, size and time of a file.
+  static std::string stamp_of(const fs::path& path) {
+    std::error_code code;
+    return fs::absolute(path).string() + " " + std::to_string(fs::file_size(path, code)) + " " +
+           std::to_string(fs::last_write_time(path, code).time_since_epoch().count()) + "\n";
+  }
+  static bool is_newer(const fs::path& made, const fs::path& source) {
+    std::error_code absent, code;
+    const auto time = fs::last_write_time(made, absent);
+    return !absent && time > fs::last_write_time(source, code) && !code;
+  }
+
   // Returns the written culture; empty: none.
   error::Expected<std::string> write_cell(CellCorner corner, const CellFile& file,
                                           const std::vector<fs::path>* rasters) {
@@ -122,6 +149,11 @@ class CoverRun {
       before = std::move(*culture);
     }
     const fs::path path = culture_path(*elevation);
+    if (goes_on_ && rasters != nullptr && is_newer(path, file.path)) {
+      ++kept_;
+      files_.push_back(path.string());
+      return path.string();
+    }
     if (rasters == nullptr) {
       if (!before) return std::string();
       if (const auto written = write_culture(path, *before); !written) return tl::unexpected(written.error());
@@ -189,6 +221,7 @@ class CoverRun {
       for (const auto& [value, pixels] : unknown_) unknown[std::to_string(value)] = pixels;
       print_json({{"cells", cells_},
                   {"scene_files", scene_files_},
+                  {"kept", kept_},
                   {"files", files_},
                   {"posts", classes},
                   {"unknown", unknown},
@@ -197,6 +230,7 @@ class CoverRun {
     } else {
       std::printf("%s, %s\n", text::counted(cells_, "cell").c_str(),
                   text::counted(files_.size(), "culture file").c_str());
+      if (kept_ > 0) std::printf("%s of an earlier run\n", text::counted(kept_, "culture file").c_str());
       for (const auto& [number, posts] : posts_)
         std::printf("%12zu posts  %s: %s\n", posts, legend_[number].name.c_str(), material_text(number).c_str());
     }
@@ -238,7 +272,9 @@ class CoverRun {
   DirectoryIndex index_;
   std::map<std::size_t, std::vector<fs::path>> rasters_;  // by slot of the cell
   double finest_ = 0.0;                                   // [pixels/deg]
-  std::size_t cells_ = 0, scene_files_ = 0;
+  std::string made_of_;                                   // what the cultures follow from, as text
+  bool goes_on_ = false;                                  // cultures of an earlier run with the same `made_of_` stay
+  std::size_t cells_ = 0, kept_ = 0, scene_files_ = 0;
   std::vector<std::string> files_, problems_;
   std::set<std::string> notes_;
   std::map<std::uint8_t, std::size_t> posts_;  // by class of the legend

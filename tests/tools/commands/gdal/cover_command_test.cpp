@@ -63,6 +63,24 @@ TEST_F(CoverCommand, TheCoverDecidesWhatIsSea) {
   EXPECT_EQ(sea.water, 1.0);
 }
 
+TEST_F(CoverCommand, ARunThatWasCutOffGoesOn) {
+  const std::string own = (folder_.path() / "own.csv").string(), culture = out() + "/w123/n37.smc.png";
+  std::ofstream(own) << "class,name,material,source\n80,water,water,\n50,town,stone,\n";
+  const auto kept = [&] {
+    const auto done = cover({"--from", raster(), "--legend", own, "--json"});
+    EXPECT_EQ(done.code, 0) << done.errors;
+    return nlohmann::json::parse(done.output)["kept"].get<int>();
+  };
+  EXPECT_EQ(kept(), 0);
+  const auto made = std::filesystem::last_write_time(culture);
+  EXPECT_EQ(kept(), 1);
+  EXPECT_EQ(std::filesystem::last_write_time(culture), made);
+  std::filesystem::remove(culture);
+  EXPECT_EQ(kept(), 0) << "the culture that was lost is made again";
+  std::ofstream(own, std::ios::app) << "1,sand,sand,\n";
+  EXPECT_EQ(kept(), 0) << "another legend";
+}
+
 TEST_F(CoverCommand, AClassWithoutALineIsNamed) {
   std::ofstream(folder_.path() / "own.csv") << "class,name,material,source\n80,water,water,\n";
   const auto done = cover({"--from", raster(), "--legend", (folder_.path() / "own.csv").string()});
