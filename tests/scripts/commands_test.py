@@ -26,9 +26,9 @@ FOREIGN = re.compile(r"is required|not convert|not in range|were not expected|wa
                      r"|should not see|error:|usage:")
 # Commands that print facts; docs/commands.md#json has their fields.
 WITH_JSON = ["scan", "patch", "trade", "trade maps", "terrain generate", "terrain info", "terrain profile",
-             "terrain reduce", "terrain convert", "terrain pack", "scene generate", "scene info", "config check",
-             "config user", "sim state", "sim freeze", "sim run", "sim rate", "sim step", "sim reset", "sim reposition",
-             "world", "inject", "status", "watch", "record", "recordings", "replay"]  # and all of `yars world`
+             "terrain reduce", "terrain convert", "terrain pack", "terrain cover", "scene generate", "scene info",
+             "config check", "config user", "sim state", "sim freeze", "sim run", "sim rate", "sim step", "sim reset",
+             "sim reposition", "world", "inject", "status", "watch", "record", "recordings", "replay"]  # and all of `yars world`
 ALL = "YARS_TEST_FULL" in os.environ
 SESSION = f"commands-{os.getpid()}"
 faults = []
