@@ -28,7 +28,8 @@ FOREIGN = re.compile(r"is required|not convert|not in range|were not expected|wa
 WITH_JSON = ["scan", "patch", "trade", "trade maps", "terrain generate", "terrain info", "terrain profile",
              "terrain reduce", "terrain convert", "terrain pack", "terrain cover", "scene generate", "scene info",
              "config check", "config user", "sim state", "sim freeze", "sim run", "sim rate", "sim step", "sim reset",
-             "sim reposition", "world", "inject", "status", "watch", "record", "recordings", "replay"]  # and all of `yars world`
+             "sim reposition", "world", "inject", "status", "watch", "record", "recordings",
+             "replay"]  # and all of `yars world`
 ALL = "YARS_TEST_FULL" in os.environ
 SESSION = f"commands-{os.getpid()}"
 faults = []

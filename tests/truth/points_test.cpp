@@ -343,10 +343,11 @@ double field_of_two_rays(double distance_m, double height_m) {
 // Echo of a wall that stands in the sea, with lobes over without.
 double wall_lobe_db(double distance_m, double height_m) {
   const auto scene =
-      test::scene_of({{.east_side_m = 20.0, .north_side_m = 0.01, .height_m = height_m}}, north(distance_m));
+      test::scene_of({{.east_side_m = 20.0, .north_side_m = 1.0, .height_m = height_m}}, north(distance_m));
   const auto echo = [&](bool lobes) {
     radar::RadarConfiguration configuration = plain();
     configuration.fidelity.sea_lobes = lobes;
+    configuration.receiver.noise_floor_db = -200.0;
     configuration.world.sea.wind_speed_mps = 0.0;
     model::rbm::Beam beam(configuration);
     std::vector<float> with(configuration.fidelity.samples), without(with.size());
@@ -360,14 +361,14 @@ double wall_lobe_db(double distance_m, double height_m) {
 }
 
 TEST(Points, AWallInACalmSeaHasTheMeanOfItsLobes) {
-  constexpr double kHeight_m = 0.4;
+  constexpr double kHeight_m = 5.0;
   for (const double distance_m : {18e3, 55e3}) {
     constexpr int kSteps = 1000;
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i)
       sum += std::pow(field_of_two_rays(distance_m, kHeight_m * (i + 0.5) / kSteps), 4.0) / kSteps;
     expect_row({"Targets",
-                "lobes of a wall 0.4 m high in a calm sea, " + std::to_string(static_cast<int>(distance_m / 1e3)) +
+                "lobes of a wall 5 m high in a calm sea, " + std::to_string(static_cast<int>(distance_m / 1e3)) +
                     " km, aircraft at 3,000 m",
                 model::decibels(sum), 1.0, "dB", "mean of two rays over the height: Skolnik 2001, 8.2; Fresnel",
                 "the reflected ray is taken at the wall's place"},
