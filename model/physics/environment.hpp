@@ -87,6 +87,7 @@ class Movers {
   // Replaces the configured movers.
   void use_movers(const RadarParameters& parameters);
   void use_sea(const RadarParameters& parameters) { sea_mirror_ = SeaMirror(parameters); }
+  const SeaMirror& sea_mirror() const { return sea_mirror_; }
 
   // Echoes of the movers within the range and within the azimuth interval point_interval(). The span is valid until the
   // next call. Does not allocate. Distances are within 3 m of the geodesic, azimuths within 1e-5 rad; with the

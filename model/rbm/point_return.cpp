@@ -36,7 +36,6 @@ PointReturn::PointReturn(const physics::RadarParameters& parameters)
       movers_(parameters),
       mover_sights_(parameters, parameters.world.movers.size() + physics::kMaxTraffic),
       gas_(parameters),
-      sea_mirror_(parameters),
       surface_(parameters),
       tables_(surface_),
       echoes_(kEchoes),
@@ -55,7 +54,6 @@ void PointReturn::use_movers(const physics::RadarParameters& parameters) {
 
 void PointReturn::use_sea(const physics::RadarParameters& parameters) {
   movers_.use_sea(parameters);
-  sea_mirror_ = physics::SeaMirror(parameters);
   ++view_number_;  // the powers of the echoes are those of another sea
 }
 
@@ -258,7 +256,7 @@ double PointReturn::power_of(const Sweep& sweep, const SceneRay::InScene& ray, c
   const double gain = physics::two_way_gain(beam_, sweep.receiver.elevation_beamwidth_rad,
                                             sweep.geometry.elevation.radians(), sight.elevation_rad);
   const double loss = gas_.two_way_transmission(earth, altitude_m, echo.distance_m, middle_m);
-  const double lobes = sea_mirror_.works() ? lobe_factor(sweep, scatterer, echo, earth) : 1.0;
+  const double lobes = movers_.sea_mirror().works() ? lobe_factor(sweep, scatterer, echo, earth) : 1.0;
   return physics::received(
       sweep.receiver,
       physics::returned_power(cross_section_m2(level, scatterer, ray, sight), lobes * loss * gain, sight.slant_range_m),
@@ -275,8 +273,8 @@ double PointReturn::lobe_factor(const Sweep& sweep, const scene::Scatterer& scat
   const double sea_m = std::isnan(below.elevation_m) ? 0.0 : below.elevation_m;
   const double low_m = std::max(0.0, static_cast<double>(scatterer.min_msl_m) - sea_m);
   const double high_m = std::max(low_m, static_cast<double>(scatterer.max_msl_m) - sea_m);
-  return sea_mirror_.lobe_factor(earth, sweep.geometry.altitude.metres(), echo.distance_m, 0.5 * (low_m + high_m),
-                                 high_m - low_m);
+  return movers_.sea_mirror().lobe_factor(earth, sweep.geometry.altitude.metres(), echo.distance_m,
+                                          0.5 * (low_m + high_m), high_m - low_m);
 }
 
 double PointReturn::cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer,

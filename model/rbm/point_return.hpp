@@ -23,7 +23,6 @@
 #include "model/physics/environment.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
-#include "model/physics/sea_mirror.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/line_of_sight.hpp"
@@ -145,7 +144,6 @@ class PointReturn {
   physics::Movers movers_;
   MoverSights mover_sights_;
   physics::GasPath gas_;
-  physics::SeaMirror sea_mirror_;
   physics::SceneSurface surface_;
   simd::SceneTables tables_;
   std::vector<Echo> echoes_;  // by number of the scatterer, modulo their size
