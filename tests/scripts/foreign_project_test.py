@@ -196,7 +196,8 @@ def by_pkg_config(folder, prefix, kind):
          *cflags, "-o", built / "first_picture.o")
     must(CXX, *FLAGS, built / "first_picture.o", *of("--libs", "yars-radar"), "-o", built / "first_picture")
     check_radar(f"{kind}, pkg-config", built / "first_picture", LD_LIBRARY_PATH=library)
-    static = ["-l:libyars-radar.a" if word == "-lyars-radar" else word for word in of("--static", "--libs", "yars-radar")]
+    static = ["-l:libyars-radar.a" if word == "-lyars-radar" else word
+              for word in of("--static", "--libs", "yars-radar")]
     must(CXX, *FLAGS, built / "first_picture.o", *static, "-o", built / "static_picture")
     check_radar(f"{kind}, static", built / "static_picture")
     for compiler, name, more in ((CC, "strict.c", ["-std=c99", "-pedantic"]),
