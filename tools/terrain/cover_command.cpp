@@ -207,7 +207,7 @@ class CoverRun {
         ++posts_[winner];
         const auto material =
             land == gdal::kNoClass ? static_cast<std::uint8_t>(Material::water) : legend_[land].material;
-        bytes[post] = cover_byte({material, static_cast<double>(cover.water[post])});
+        bytes[post] = cover_byte({material, cover.water[post] / 255.0});
       }
     return {corner, cover.rows, cover.columns, bytes};
   }

@@ -199,7 +199,7 @@ class CoverReader {
     candidates_.clear();
     posts_.classes[post] = of_all.number;
     posts_.land[post] = of_land.number;
-    posts_.water[post] = all > 0 ? static_cast<float>(water) / static_cast<float>(all) : 0.0F;
+    posts_.water[post] = static_cast<std::uint8_t>(all > 0 ? (255ULL * water + all / 2) / all : 0ULL);
   }
 
   const Raster& raster_;
@@ -241,7 +241,7 @@ error::Expected<CoverPosts> read_cover(const std::vector<std::filesystem::path>&
                    grid.columns,
                    std::vector<std::uint8_t>(count, kNoClass),
                    std::vector<std::uint8_t>(count, kNoClass),
-                   std::vector<float>(count, 0.0F),
+                   std::vector<std::uint8_t>(count, 0),
                    {},
                    {}};
   for (const std::filesystem::path& path : rasters) {

@@ -41,7 +41,7 @@ struct CoverPosts {
   std::vector<std::uint8_t> classes;  // index into the legend; kNoClass: no pixel with a class
   // The same without the classes of water; kNoClass: no other.
   std::vector<std::uint8_t> land;
-  std::vector<float> water;            // [0, 1] share of water
+  std::vector<std::uint8_t> water;     // share of water, times 255
   std::map<int, std::size_t> unknown;  // pixels by value, of values that the legend has not
   std::vector<std::string> notes;      // about the rasters
 };
