@@ -100,10 +100,9 @@ class CoverRun {
 
   void run() {
     // A run that was cut off goes on if it has the same rasters, legend and posts.
-    const fs::path note = fs::path(options_.out) / "cover.txt";
-    const auto before = file::read_text_file(note);
+    const auto before = file::read_text_file(note());
     goes_on_ = before && *before == made_of_;
-    if (const auto written = file::write_file_and_folders(note, std::as_bytes(std::span(made_of_))); !written)
+    if (const auto written = file::write_file_and_folders(note(), std::as_bytes(std::span(made_of_))); !written)
       throw_failure(written.error());
     Progress progress(index_.size());
     for (const auto& [slot, file] : index_) {
@@ -124,6 +123,8 @@ class CoverRun {
     return std::move(*found);
   }
 
+  fs::path note() const { return fs::path(options_.out) / "cover.txt"; }
+
   // Path, size and time of a file.
   static std::string stamp_of(const fs::path& path) {
     std::error_code code;
@@ -139,20 +140,20 @@ class CoverRun {
   // Returns the written culture; empty: none.
   error::Expected<std::string> write_cell(CellCorner corner, const CellFile& file,
                                           const std::vector<fs::path>* rasters) {
-    const auto elevation = copy_elevation(corner, file);
-    if (!elevation) return tl::unexpected(elevation.error());
+    const fs::path path = culture_path(target_of(corner, file));
     ++cells_;
+    // A culture is written after the elevation.
+    if (goes_on_ && rasters != nullptr && is_newer(path, file.path)) {
+      ++kept_;
+      files_.push_back(path.string());
+      return path.string();
+    }
+    if (const auto copied = copy_elevation(corner, file); !copied) return tl::unexpected(copied.error());
     std::optional<Culture> before;
     if (file.culture) {
       auto culture = read_culture(*file.culture, corner);
       if (!culture) return tl::unexpected(culture.error());
       before = std::move(*culture);
-    }
-    const fs::path path = culture_path(*elevation);
-    if (goes_on_ && rasters != nullptr && is_newer(path, file.path)) {
-      ++kept_;
-      files_.push_back(path.string());
-      return path.string();
     }
     if (rasters == nullptr) {
       if (!before) return std::string();
@@ -164,6 +165,7 @@ class CoverRun {
     auto cover = gdal::read_cover(*rasters, classes_, corner.south_deg, corner.west_deg, grid.north, grid.east);
     if (!cover) return tl::unexpected(cover.error());
     for (const auto& [value, pixels] : cover->unknown) unknown_[value] += pixels;
+    if (!cover->unknown.empty()) fs::remove(note());  // so that the next run says it again
     notes_.insert(cover->notes.begin(), cover->notes.end());
     const Culture culture = made(corner, *cover, before ? &*before : nullptr);
     if (const auto written = write_culture(path, culture); !written) return tl::unexpected(written.error());
@@ -172,13 +174,21 @@ class CoverRun {
   }
 
   // A cell of a raster becomes a pack, because the raster may hold several. Other files are copied as they are.
-  error::Expected<fs::path> copy_elevation(CellCorner corner, const CellFile& file) const {
+  fs::path target_of(CellCorner corner, const CellFile& file) const {
+    const bool raster = file.format == CellFormat::raster;
+    return fs::path(options_.out) /
+           (raster ? fs::path(pack_name(corner)) : file.path.lexically_relative(options_.terrain));
+  }
+
+  error::Expected<void> copy_elevation(CellCorner corner, const CellFile& file) const {
     if (file.format == CellFormat::raster) {
       const auto reading = read_cell(file, corner);
       if (!reading) return tl::unexpected(reading.error());
-      return write_pack(options_.out, reading->cell);
+      if (const auto written = write_pack(options_.out, reading->cell); !written)
+        return tl::unexpected(written.error());
+      return {};
     }
-    const fs::path to = fs::path(options_.out) / file.path.lexically_relative(options_.terrain);
+    const fs::path to = target_of(corner, file);
     std::error_code code;
     fs::create_directories(to.parent_path(), code);
     fs::copy_file(file.path, to, fs::copy_options::overwrite_existing, code);
@@ -187,7 +197,7 @@ class CoverRun {
       fs::copy_file(side, fs::path(to).replace_extension(".side"), fs::copy_options::overwrite_existing, code);
     if (!code) fs::permissions(to, fs::perms::owner_write, fs::perm_options::add, code);
     if (code) return error::fail(to.string(), "a copy of " + file.path.string(), error::reason_of(code.value()));
-    return to;
+    return {};
   }
 
   // Posts without a class keep their cover of before.

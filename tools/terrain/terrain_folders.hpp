@@ -1,4 +1,4 @@
-// What commands have in common that make a folder of terrain from another one. In convert_commands.cpp.
+// What commands have in common that make a folder of terrain from another one.
 #pragma once
 
 #include <cstddef>

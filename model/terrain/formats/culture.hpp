@@ -1,8 +1,8 @@
-// Culture of a cell: a grid of surface material codes, and the indexed PNG that stores it.
-// Input: an indexed PNG beside the elevation file. Output: one DFAD code per post.
-// Grid: rows from south to north in memory, from north to south in the file; all edges included.
-// Threads: a Culture is immutable.
-// Source: docs/spec/formats.md#dfad; docs/generated_terrain.md, "Culture tiles".
+// Culture of a cell: a grid of covers, each a surface material with or without a share of water, and the indexed PNG
+// that stores it.
+// Input: an indexed PNG beside the elevation file. Output: one DFAD code per post, and the share of water if it is
+// known. Grid: rows from south to north in memory, from north to south in the file; all edges included. Threads: a
+// Culture is immutable. Source: docs/spec/formats.md#dfad; docs/generated_terrain.md, "Culture tiles".
 #pragma once
 
 #include <array>
@@ -52,16 +52,18 @@ struct Cover {
   std::optional<double> water = std::nullopt;
 };
 
-// A cover as one byte of a culture file: the material, and 32 times 1 + six times the share of water (rounded), or 0.
+// A cover as one byte of a culture file. The lower five bits are the material. The upper three are 0 where the share of
+// water is not known, else 1 + the share in sixths.
+inline constexpr int kWaterShift = 5;
+inline constexpr int kWaterSteps = 6;
 inline std::uint8_t cover_byte(const Cover& cover) {
-  constexpr double kSteps = 6.0;
-  const unsigned share = cover.water ? 1U + static_cast<unsigned>(std::lround(kSteps * *cover.water)) : 0U;
-  return static_cast<std::uint8_t>(cover.material | share << 5U);
+  const unsigned share = cover.water ? 1U + static_cast<unsigned>(std::lround(kWaterSteps * *cover.water)) : 0U;
+  return static_cast<std::uint8_t>(cover.material | share << kWaterShift);
 }
 constexpr Cover cover_of(std::uint8_t byte) {
-  const unsigned share = byte >> 5U;
+  const int share = byte >> kWaterShift;
   Cover cover{static_cast<std::uint8_t>(byte & kMaxMaterial)};
-  if (share > 0) cover.water = (share - 1U) / 6.0;
+  if (share > 0) cover.water = static_cast<double>(share - 1) / kWaterSteps;
   return cover;
 }
 

@@ -12,7 +12,7 @@
 namespace yars::model::terrain::gdal {
 
 namespace {
-constexpr int kUnknownValue = -1;  // pixel without data
+constexpr int kNoData = -1;  // value of a pixel without data
 
 // Index into the legend by value of a pixel.
 std::vector<std::uint8_t> classes_by_value(const std::vector<PixelClass>& legend) {
@@ -121,21 +121,13 @@ class CoverReader {
   }
 
   error::Expected<std::vector<std::int32_t>> read_values(const Box& box) const {
-    const MessageCapture messages;
     std::vector<std::int32_t> values(box.area());
-    std::vector<std::uint8_t> valid(raster_.masked ? values.size() : 0);
-    const auto read = [&](GDALRasterBandH band, void* into, GDALDataType type) {
-      return GDALRasterIO(band, GF_Read, box.first_column, box.first_row, box.columns, box.rows, into, box.columns,
-                          box.rows, type, 0, 0) == CE_None;
-    };
-    if (!read(raster_.heights, values.data(), GDT_Int32) ||
-        (raster_.masked && !read(GDALGetMaskBand(raster_.heights), valid.data(), GDT_Byte)))
-      return error::fail(raster_.subject, "classes that can be read", messages.first_or("a failure of GDAL"),
-                         "the file may be damaged; fetch it again");
+    const auto valid = read_pixels(raster_, box, GDT_Int32, values.data(), "classes");
+    if (!valid) return tl::unexpected(valid.error());
     if (raster_.no_data_value)
-      std::replace(values.begin(), values.end(), static_cast<std::int32_t>(*raster_.no_data_value), kUnknownValue);
-    for (std::size_t i = 0; i < valid.size(); ++i)
-      if (valid[i] == 0) values[i] = kUnknownValue;
+      std::replace(values.begin(), values.end(), static_cast<std::int32_t>(*raster_.no_data_value), kNoData);
+    for (std::size_t i = 0; i < valid->size(); ++i)
+      if ((*valid)[i] == 0) values[i] = kNoData;
     return values;
   }
 
@@ -165,7 +157,7 @@ class CoverReader {
     const std::int32_t value =
         values_[static_cast<std::size_t>(row - box_.first_row) * static_cast<std::size_t>(box_.columns) +
                 static_cast<std::size_t>(column - box_.first_column)];
-    if (value == kUnknownValue) return;
+    if (value == kNoData) return;
     const bool known = value >= 0 && value < static_cast<std::int32_t>(class_of_.size()) &&
                        class_of_[static_cast<std::size_t>(value)] != kNoClass;
     if (!known) {

@@ -230,21 +230,28 @@ class Means {
 
 }  // namespace
 
-error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels) {
+error::Expected<std::vector<std::uint8_t>> read_pixels(const Raster& raster, const Box& pixels, GDALDataType type,
+                                                       void* numbers, const std::string& what) {
   const MessageCapture messages;
-  std::vector<float> heights(pixels.area());
-  std::vector<std::uint8_t> valid(raster.masked ? heights.size() : 0);
-  const auto read = [&](GDALRasterBandH band, void* into, GDALDataType type) {
+  std::vector<std::uint8_t> valid(raster.masked ? pixels.area() : 0);
+  const auto read = [&](GDALRasterBandH band, void* into, GDALDataType as) {
     return GDALRasterIO(band, GF_Read, pixels.first_column, pixels.first_row, pixels.columns, pixels.rows, into,
-                        pixels.columns, pixels.rows, type, 0, 0) == CE_None;
+                        pixels.columns, pixels.rows, as, 0, 0) == CE_None;
   };
-  if (!read(raster.heights, heights.data(), GDT_Float32) ||
+  if (!read(raster.heights, numbers, type) ||
       (raster.masked && !read(GDALGetMaskBand(raster.heights), valid.data(), GDT_Byte)))
-    return error::fail(raster.subject, "heights that can be read", messages.first_or("a failure of GDAL"),
+    return error::fail(raster.subject, what + " that can be read", messages.first_or("a failure of GDAL"),
                        "the file may be damaged; fetch it again");
+  return valid;
+}
+
+error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels) {
+  std::vector<float> heights(pixels.area());
+  const auto valid = read_pixels(raster, pixels, GDT_Float32, heights.data(), "heights");
+  if (!valid) return tl::unexpected(valid.error());
   std::transform(heights.begin(), heights.end(), heights.begin(), HeightCheck(raster));
-  for (std::size_t i = 0; i < valid.size(); ++i)
-    if (valid[i] == 0) heights[i] = kMissing;
+  for (std::size_t i = 0; i < valid->size(); ++i)
+    if ((*valid)[i] == 0) heights[i] = kMissing;
   return heights;
 }
 

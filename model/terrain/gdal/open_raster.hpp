@@ -1,8 +1,8 @@
-// Raster of heights opened by GDAL, and mean heights of blocks of its pixels. Used in this folder only.
+// Raster of heights or of classes opened by GDAL, and mean heights of blocks of its pixels. Used in this folder only.
 // Input: a regular file. Output: heights [m], NaN where the raster has no data. The heights are above mean sea level,
 //   or above the ellipsoid if Georeference::heights_are_ellipsoidal().
-// Errors: not a regular file, not readable by GDAL, not exactly one band of numbers with 16 bits or more, no
-//   georeference.
+// Errors: not a regular file, not readable by GDAL, not exactly one band of numbers, heights of less than
+//   16 bits, classes that are no whole numbers, no georeference.
 //   The first error message of GDAL becomes part of the error. GDAL prints nothing to stderr.
 // Threads: one thread per Raster.
 #pragma once
@@ -45,7 +45,7 @@ class MessageCapture {
 struct Raster {
   std::string subject;  // path, for error messages
   Dataset dataset;
-  GDALRasterBandH heights = nullptr;  // owned by the dataset
+  GDALRasterBandH heights = nullptr;  // or classes; owned by the dataset
   int columns = 0, rows = 0;
   Georeference georeference;
   // Height [m] = band value x scale + offset_m.
@@ -68,6 +68,11 @@ struct Box {
   int columns = 0, rows = 0;
   std::size_t area() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
+
+// Reads the numbers of pixels into `numbers`, row by row, as `type`. Returns by pixel whether it has data, by the mask
+// of the raster; empty if it has none. `what`: heights or classes, for the error.
+error::Expected<std::vector<std::uint8_t>> read_pixels(const Raster& raster, const Box& pixels, GDALDataType type,
+                                                       void* numbers, const std::string& what);
 
 // Reads the heights of pixels [m], row by row. NaN: no data. Infinity: an impossible height.
 // Impossible are heights below -12,000 m or above 10,000 m, a height of -9999 m, and undeclared no-data values of the

@@ -302,10 +302,10 @@ void codes(const Culture& culture, const float* north_deg, const float* east_deg
 void unpack_covers(std::size_t count, std::int32_t* material, float* water) {
   const IntLanes di;
   const FloatLanes d;
-  const auto step = hn::Set(d, 1.0F / 6.0F);
+  const auto step = hn::Set(d, 1.0F / static_cast<float>(kWaterSteps));
   for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
     const auto cover = hn::LoadU(di, material + i);
-    const auto share = hn::Sub(hn::ShiftRight<5>(cover), hn::Set(di, 1));
+    const auto share = hn::Sub(hn::ShiftRight<kWaterShift>(cover), hn::Set(di, 1));
     const auto known = hn::RebindMask(d, hn::Gt(share, hn::Set(di, -1)));
     hn::StoreU(hn::IfThenElse(known, hn::Mul(hn::ConvertTo(d, share), step), hn::LoadU(d, water + i)), d, water + i);
     hn::StoreU(hn::And(cover, hn::Set(di, std::int32_t{kMaxMaterial})), di, material + i);

@@ -87,6 +87,7 @@ TEST_F(CoverCommand, AClassWithoutALineIsNamed) {
   EXPECT_EQ(done.code, 1);
   EXPECT_THAT(done.errors, HasSubstr("expected a line of the legend for each class, found none for 50 ("));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/w123/n37.smc.png")) << "the other classes are written";
+  EXPECT_EQ(cover({"--from", raster(), "--legend", (folder_.path() / "own.csv").string()}).code, 1) << "and again";
 }
 
 TEST_F(CoverCommand, FaultsAreSaidBeforeAnythingIsWritten) {
